@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/contact.hpp"
+#include "core/state.hpp"
+
+#include <cmath>
+
+namespace talus
+{
+
+/// What the sweep of a scene contains; chosen once for a solve, so that a frictionless scene has no tangent and no
+/// spin.
+template <bool with_friction, bool with_rolling> struct Rows {
+    static constexpr bool friction = with_friction;
+    static constexpr bool rolling = with_rolling;
+};
+
+/// Sums for the stopping rule: Σ W|δ|² of the corrections and Σ W|λ|² of the impulses, rolling rows by their inertia.
+struct SweepSums {
+    double change = 0.0;
+    double size = 0.0;
+
+    SweepSums& operator+=(const SweepSums& other)
+    {
+        change += other.change;
+        size += other.size;
+        return *this;
+    }
+};
+
+/// Velocity u = G v of sphere a relative to b (or to the wall) at the contact [m/s]: in spheres' own terms
+/// u = v_a − v_b + s n × (a_a + a_b), a = r ω.
+template <bool wall, class R> Vec3 contact_velocity(const Contact& c, const ContactTerms& terms, const Motion* motion)
+{
+    const Motion& a = motion[c.a];
+    Vec3 u = a.velocity;
+    if constexpr (!wall) u -= motion[c.b].velocity;
+    if constexpr (R::friction) {
+        Vec3 rim = a.rim_velocity;
+        if constexpr (!wall) rim += motion[c.b].rim_velocity;
+        u += terms.arm_scale * c.normal.cross(rim);
+    }
+    return u;
+}
+
+/// v ← v + M⁻¹ Gᵀ p for an impulse p of one contact.
+template <bool wall, class R>
+void apply_impulse(const Contact& c, const ContactTerms& terms, const Vec3& p, Motion* motion)
+{
+    Motion& a = motion[c.a];
+    a.velocity += a.inverse_mass * p;
+    Vec3 turn;
+    if constexpr (R::friction) {
+        turn = inverse_inertia_factor * terms.arm_scale * c.normal.cross(p);
+        a.rim_velocity -= a.inverse_mass * turn;
+    }
+    if constexpr (!wall) {
+        Motion& b = motion[c.b];
+        b.velocity -= b.inverse_mass * p;
+        if constexpr (R::friction) b.rim_velocity -= b.inverse_mass * turn;
+    }
+}
+
+/// ω ← ω + I⁻¹ τ for an angular impulse τ of one contact's rolling row.
+template <bool wall> void apply_rolling_impulse(const Contact& c, const Vec3& torque_impulse, Motion* motion)
+{
+    Motion& a = motion[c.a];
+    a.rim_velocity += inverse_inertia_factor * a.inverse_mass / a.radius * torque_impulse;
+    if constexpr (!wall) {
+        Motion& b = motion[c.b];
+        b.rim_velocity -= inverse_inertia_factor * b.inverse_mass / b.radius * torque_impulse;
+    }
+}
+
+/// The impulse that solves one contact exactly with all others held (physics.md 4.3), normal first, then friction on
+/// the disk of the new normal impulse:
+///
+///   λ_n ← max(0, λ_n − (u_n + Σ_n λ_n − q_n) / (W + Σ_n))                       README (6)
+///   λ_t ← projection of λ_t − u_t / (W (1 + 5/2 s²)) on the disk |λ_t| ≤ μ λ_n  README (7)
+template <class R> Vec3 solved_impulse(const Contact& c, const ContactTerms& terms, const Vec3& u)
+{
+    const double u_n = u.dot(c.normal);
+    const double old_normal = c.impulse.dot(c.normal);
+    const double new_normal =
+        std::max(0.0, old_normal - (u_n + terms.compliance * old_normal - c.target) * terms.normal_mass);
+    if constexpr (!R::friction)
+        return new_normal * c.normal;
+    else {
+        Vec3 tangent = (c.impulse - old_normal * c.normal) - terms.tangent_mass * (u - u_n * c.normal);
+        const double largest = terms.friction * new_normal;
+        const double size_squared = tangent.squaredNorm();
+        if (size_squared > largest * largest) tangent *= largest / std::sqrt(size_squared);
+        return new_normal * c.normal + tangent;
+    }
+}
+
+/// The rolling row's impulse on the disk |τ| ≤ μ_r R* λ_n, against the relative spin across the normal; README (8).
+template <bool wall> Vec3 solved_rolling_impulse(const Contact& c, const RollingRow& row, const Motion* motion)
+{
+    const Motion& a = motion[c.a];
+    Vec3 spin = a.rim_velocity / a.radius;
+    if constexpr (!wall) spin -= motion[c.b].rim_velocity / motion[c.b].radius;
+    Vec3 impulse = row.impulse - row.inertia * (spin - spin.dot(c.normal) * c.normal);
+    const double largest = row.reach * c.impulse.dot(c.normal);
+    const double size_squared = impulse.squaredNorm();
+    if (size_squared > largest * largest) impulse *= largest / std::sqrt(size_squared);
+    return impulse;
+}
+
+/// Relaxes one contact. With `apply` off nothing changes and the sums tell how far the contact is from its law.
+template <bool wall, class R, bool apply>
+void relax(Contact& c, const ContactTerms& terms, RollingRow* row, Motion* motion, SweepSums& sums)
+{
+    const Vec3 solved = solved_impulse<R>(c, terms, contact_velocity<wall, R>(c, terms, motion));
+    const Vec3 change = solved - c.impulse;
+    sums.change += terms.inverse_mass_sum * change.squaredNorm();
+    sums.size += terms.inverse_mass_sum * solved.squaredNorm();
+    if constexpr (apply) {
+        c.impulse = solved;
+        apply_impulse<wall, R>(c, terms, change, motion);
+    }
+    if constexpr (R::rolling) {
+        const Vec3 rolling = solved_rolling_impulse<wall>(c, *row, motion);
+        const Vec3 rolling_change = rolling - row->impulse;
+        sums.change += rolling_change.squaredNorm() / row->inertia;
+        sums.size += rolling.squaredNorm() / row->inertia;
+        if constexpr (apply) {
+            row->impulse = rolling;
+            apply_rolling_impulse<wall>(c, rolling_change, motion);
+        }
+    }
+}
+
+} // namespace talus

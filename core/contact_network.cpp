@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contact_network.hpp"
+
+namespace talus
+{
+
+CarriedImpulses::CarriedImpulses(std::size_t slots, bool with_rolling)
+    : impulse(slots, Vec3::Zero()), rolling_impulse(with_rolling ? slots : 0, Vec3::Zero()), touched(slots, 0)
+{
+}
+
+void CarriedImpulses::clear(std::size_t slot)
+{
+    impulse[slot].setZero();
+    if (!rolling_impulse.empty()) rolling_impulse[slot].setZero();
+    touched[slot] = 0;
+}
+
+void CarriedImpulses::copy(std::size_t slot, const CarriedImpulses& from, std::size_t from_slot, bool opposite)
+{
+    const double sign = opposite ? -1.0 : 1.0;
+    impulse[slot] = sign * from.impulse[from_slot];
+    if (!rolling_impulse.empty()) rolling_impulse[slot] = sign * from.rolling_impulse[from_slot];
+    touched[slot] = from.touched[from_slot];
+}
+
+void ContactArrays::resize(std::size_t slots, std::size_t tiles, bool with_rolling)
+{
+    contact.resize(slots);
+    terms.resize(slots);
+    rolling.resize(with_rolling ? slots : 0);
+    geometry.resize(slots);
+    count.assign(tiles, 0);
+}
+
+} // namespace talus

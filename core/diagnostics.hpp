@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/model.hpp"
+#include "core/state.hpp"
+
+#include <vector>
+
+namespace talus
+{
+
+/// Reads the state and never writes it.
+
+double kinetic_energy(const Motion& motion);                      ///< of one solid sphere, translation and rotation [J]
+double kinetic_energy(const State& state);                        ///< [J]
+double potential_energy(const State& state, const Vec3& gravity); ///< −Σ m g·x [J]
+Vec3 linear_momentum(const State& state);                         ///< Σ m v [kg m/s]
+Vec3 angular_momentum(const State& state);                        ///< Σ (x × m v + I ω) about the origin [kg m²/s]
+
+/// Something that must not go on unseen: a sphere that escaped, is not a number, or moves faster than it can.
+struct Incident {
+    enum class Kind { escaped, not_a_number, blow_up };
+    Kind kind = Kind::escaped;
+    std::int64_t id = -1; ///< of the sphere
+    Vec3 position = Vec3::Zero();
+    double speed = 0.0;          ///< [m/s]
+    std::int32_t last_wall = -1; ///< index, −1: none
+};
+
+/// What a pass over the spheres tells about a step.
+struct SphereSurvey {
+    double kinetic_energy = 0.0;     ///< [J]
+    double potential_energy = 0.0;   ///< [J]
+    double fastest_speed = 0.0;      ///< [m/s]
+    std::size_t long_moves = 0;      ///< spheres that move more than 0.1 d in a step at their speed
+    std::vector<Incident> incidents; ///< in storage order
+};
+
+SphereSurvey survey_spheres(const State& state, const Model& model);
+
+} // namespace talus

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/gauss_seidel.hpp"
+
+#include "core/contact_kernel.hpp"
+#include "core/tile_crew.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace talus
+{
+namespace
+{
+
+/// Calls visit(contact, terms, row, is_wall) for the contacts of one tile, spheres first; `row` is null without
+/// rolling.
+template <class Visit> void for_each_contact(ContactNetwork& network, std::size_t tile, Visit&& visit)
+{
+    const auto visit_all = [&](ContactArrays& arrays, std::size_t first, auto is_wall) {
+        RollingRow* rows = arrays.rolling.empty() ? nullptr : arrays.rolling.data();
+        for (std::size_t k = first; k < first + arrays.count[tile]; ++k)
+            visit(arrays.contact[k], arrays.terms[k], rows ? rows + k : nullptr, is_wall);
+    };
+    visit_all(network.sphere_contacts, network.pairs_of_tile[tile], std::false_type{});
+    visit_all(network.wall_contacts, network.wall_slots_of_tile[tile], std::true_type{});
+}
+
+template <class R, bool apply> SweepSums relax_tile(ContactNetwork& network, std::size_t tile, Motion* motion)
+{
+    SweepSums sums;
+    for_each_contact(network, tile, [&](Contact& c, const ContactTerms& terms, RollingRow* row, auto is_wall) {
+        relax<is_wall(), R, apply>(c, terms, row, motion, sums);
+    });
+    return sums;
+}
+
+template <class R> SweepSums warm_start_tile(ContactNetwork& network, std::size_t tile, Motion* motion)
+{
+    SweepSums sums;
+    for_each_contact(network, tile, [&](Contact& c, const ContactTerms& terms, RollingRow* row, auto is_wall) {
+        apply_impulse<is_wall(), R>(c, terms, c.impulse, motion);
+        sums.size += terms.inverse_mass_sum * c.impulse.squaredNorm();
+        if constexpr (R::rolling) {
+            apply_rolling_impulse<is_wall()>(c, row->impulse, motion);
+            sums.size += row->impulse.squaredNorm() / row->inertia;
+        }
+    });
+    return sums;
+}
+
+/// Sum of the tiles' sums in tile order, so that it has the same bits whichever thread made which part.
+SweepSums total(const std::vector<SweepSums>& of_tile)
+{
+    SweepSums sum;
+    for (const auto& part : of_tile) sum += part;
+    return sum;
+}
+
+template <class R> double apply_warm_start(ContactNetwork& network, Motion* motion)
+{
+    std::vector<SweepSums> of_tile(network.tiles.count());
+    const auto work = [&](std::size_t tile) { of_tile[tile] = warm_start_tile<R>(network, tile, motion); };
+    with_tile_crew(network.tiles, [&](TileCrew& crew) { crew.color_by_color(work); });
+    return total(of_tile).size;
+}
+
+template <class R>
+SolveReport solve(ContactNetwork& network, Motion* motion, const SolverSettings& solver, double warm_size)
+{
+    const auto tiles = network.tiles.count();
+    const auto residual = [&](const SweepSums& sums) {
+        const double size = std::max(sums.size, warm_size);
+        return sums.change == 0.0 ? 0.0 : std::sqrt(sums.change / size);
+    };
+    // Two sets of partial sums in turn: a slow thread may still read one sweep's while a fast one writes the next.
+    std::array<std::vector<SweepSums>, 2> swept{std::vector<SweepSums>(tiles), std::vector<SweepSums>(tiles)};
+    std::vector<SweepSums> measured(tiles);
+    SolveReport report;
+    with_tile_crew(network.tiles, [&](TileCrew& crew) {
+        // Every thread goes through the same loop with the same numbers.
+        int sweeps = 0;
+        double error = infinity;
+        while (error > solver.tolerance && sweeps < solver.max_sweeps) {
+            auto& of_tile = swept[static_cast<std::size_t>(sweeps % 2)];
+            crew.color_by_color([&](std::size_t tile) { of_tile[tile] = relax_tile<R, true>(network, tile, motion); });
+            ++sweeps;
+            const bool ready = sweeps >= solver.min_sweeps && residual(total(of_tile)) <= solver.tolerance;
+            if (!ready && sweeps < solver.max_sweeps) continue;
+            crew.all_at_once([&](std::size_t tile) { measured[tile] = relax_tile<R, false>(network, tile, motion); });
+            error = residual(total(measured));
+        }
+#pragma omp single nowait
+        report = {sweeps, error, error <= solver.tolerance};
+    });
+    return report;
+}
+
+/// Calls work(Rows<…>{}) with what the scene needs.
+template <class Work> auto with_rows(const ModelledPhysics& physics, Work&& work)
+{
+    if (physics.rolling) return work(Rows<true, true>{});
+    if (physics.friction) return work(Rows<true, false>{});
+    return work(Rows<false, false>{});
+}
+
+} // namespace
+
+double apply_warm_start(ContactNetwork& network, std::vector<Motion>& motion, const ModelledPhysics& physics)
+{
+    return with_rows(physics, [&](auto rows) { return apply_warm_start<decltype(rows)>(network, motion.data()); });
+}
+
+SolveReport solve_contacts(ContactNetwork& network, std::vector<Motion>& motion, const ModelledPhysics& physics,
+    const SolverSettings& solver, double warm_size)
+{
+    return with_rows(
+        physics, [&](auto rows) { return solve<decltype(rows)>(network, motion.data(), solver, warm_size); });
+}
+
+} // namespace talus

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/contact_network.hpp"
+#include "core/model.hpp"
+#include "core/state.hpp"
+
+namespace talus
+{
+
+/// How a solve went.
+struct SolveReport {
+    int sweeps = 0;
+    double residual = 0.0; ///< ε
+    bool converged = true; ///< ε ≤ tolerance
+};
+
+/// Warm start: v ← v + M⁻¹ Gᵀ λ⁰ with the impulses in the contacts (README (5); the note forgets it).
+/// Returns Σ W|λ⁰|².
+double apply_warm_start(ContactNetwork& network, std::vector<Motion>& motion, const ModelledPhysics& physics);
+
+/// Projected Gauss–Seidel (Algorithm 3.1 of the note) on the contacts of the network: sweeps tile colour by tile
+/// colour, the tiles of one colour in parallel, until
+///
+///   ε = (Σ W|δ|² / max(Σ W|λ|², Σ W|λ⁰|²))^½ ≤ tolerance,  δ the exact correction of one contact alone,  README (9)
+///
+/// but at least min_sweeps and at most max_sweeps. During the sweeps δ is the change just made; before the loop ends a
+/// pass that changes nothing measures ε itself.
+/// @param warm_size Σ W|λ⁰|² of the warm start
+SolveReport solve_contacts(ContactNetwork& network, std::vector<Motion>& motion, const ModelledPhysics& physics,
+    const SolverSettings& solver, double warm_size);
+
+} // namespace talus

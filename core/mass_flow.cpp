@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/mass_flow.hpp"
+
+#include "core/statistics.hpp"
+
+#include <algorithm>
+
+namespace talus
+{
+namespace
+{
+
+constexpr int parts = 5; ///< of the steady window, for the spread
+
+} // namespace
+
+MassFlow::MassFlow(std::string sensor_name, const Vec3& point, const Vec3& normal, double from, double to)
+    : Sensor(std::move(sensor_name)), point_(point), normal_(normal), from_(from), to_(to)
+{
+}
+
+void MassFlow::sample(const State& state, const Model&)
+{
+    double behind = 0.0;
+    std::int64_t behind_count = 0;
+    std::int64_t newest = known_ids_;
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        if (state.id[i] >= known_ids_) inserted_mass_ += state.mass(i);
+        newest = std::max(newest, state.id[i] + 1);
+        if (normal_.dot(state.position[i] - point_) > 0.0) continue;
+        behind += state.mass(i);
+        ++behind_count;
+    }
+    known_ids_ = newest;
+    samples_.push_back({state.time, inserted_mass_ - behind, static_cast<double>(known_ids_ - behind_count)});
+}
+
+std::vector<Measurement> MassFlow::latest() const
+{
+    const Sample last = samples_.empty() ? Sample{} : samples_.back();
+    return {{"passed_mass", last.mass, 0.0, "kg"}, {"passed_count", last.count, 0.0, "1"}};
+}
+
+std::vector<Measurement> MassFlow::results() const
+{
+    LineFit mass, count;
+    std::vector<Sample> steady;
+    std::copy_if(samples_.begin(), samples_.end(), std::back_inserter(steady),
+        [&](const Sample& s) { return s.time >= from_ && s.time <= to_; });
+    std::vector<LineFit> mass_part(parts), count_part(parts);
+    for (std::size_t k = 0; k < steady.size(); ++k) {
+        mass.add(steady[k].time, steady[k].mass);
+        count.add(steady[k].time, steady[k].count);
+        const auto part = k * parts / steady.size();
+        mass_part[part].add(steady[k].time, steady[k].mass);
+        count_part[part].add(steady[k].time, steady[k].count);
+    }
+    MeanAndError mass_slopes, count_slopes;
+    for (std::size_t p = 0; p < parts; ++p) {
+        mass_slopes.add(mass_part[p].slope());
+        count_slopes.add(count_part[p].slope());
+    }
+    return {{"mass_flow", mass.slope(), mass_slopes.standard_error(), "kg/s"},
+        {"sphere_flow", count.slope(), count_slopes.standard_error(), "1/s"}};
+}
+
+} // namespace talus

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/sensor.hpp"
+
+namespace talus
+{
+
+/// Mass flow through a plane: how fast the mass that was inserted and is no longer behind the plane grows. Spheres that
+/// left through an outlet have passed, wherever the outlet is.
+///
+/// The rate is the least-squares slope of the passed mass over [from, to]; its spread is the standard error of the
+/// slopes of five equal parts of that window.
+class MassFlow : public Sensor
+{
+public:
+    /// @param normal unit, the direction of the flow; @param from, to the steady window [s]
+    MassFlow(std::string name, const Vec3& point, const Vec3& normal, double from, double to);
+
+    void sample(const State& state, const Model& model) override;
+    std::vector<Measurement> latest() const override;
+    std::vector<Measurement> results() const override;
+
+private:
+    struct Sample {
+        double time, mass, count;
+    };
+    Vec3 point_, normal_;
+    double from_, to_;
+    double inserted_mass_ = 0.0;
+    std::int64_t known_ids_ = 0; ///< spheres with lower ids are in inserted_mass_
+    std::vector<Sample> samples_;
+};
+
+} // namespace talus

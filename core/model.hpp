@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/material.hpp"
+#include "core/region.hpp"
+#include "core/wall.hpp"
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+
+/// How overlap is kept small (stabilisation.hpp has the laws).
+enum class Stabilisation { matched, projected };
+
+struct SolverSettings {
+    Stabilisation stabilisation = Stabilisation::matched;
+    int min_sweeps = 2;                 ///< N_min; it also sets the stiffness of `matched`
+    int max_sweeps = 100;               ///< a step that stops here unconverged is counted and told
+    double tolerance = 1e-2;            ///< on the residual ε, see gauss_seidel.hpp
+    double restitution_threshold = 3.0; ///< impacts slower than this times gravity × step do not rebound
+    double push_out_speed = infinity;   ///< cap on the speed with which overlap is undone [m/s]
+};
+
+/// What the scene needs; the rest does not exist in the step.
+struct ModelledPhysics {
+    bool friction = false;
+    bool rolling = false;
+    bool restitution = false;
+};
+
+/// The constant part of a simulation.
+struct Model {
+    Vec3 gravity = Vec3(0, 0, -9.81); ///< [m/s²]
+    double time_step = 0.0;           ///< h [s]
+    Materials materials;
+    std::vector<Wall> walls;
+    std::vector<Region> outlets;   ///< a sphere whose centre enters one leaves the world lawfully
+    Box world;                     ///< a sphere whose centre leaves it elsewhere has escaped
+    double speed_limit = infinity; ///< a faster sphere is a blow-up [m/s]
+    double mean_diameter = 0.0;    ///< d, of all spheres that the scene makes; the unit of lengths in reports [m]
+    double min_diameter = 0.0;
+    double max_diameter = 0.0;
+    ModelledPhysics physics;
+    SolverSettings solver;
+};
+
+} // namespace talus

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/contact_network.hpp"
+#include "core/model.hpp"
+#include "core/state.hpp"
+
+namespace talus
+{
+
+/// What has left through the outlets.
+struct Outflow {
+    std::int64_t count = 0;
+    double mass = 0.0; ///< [kg]
+};
+
+/// Takes the spheres that are leaving out of the state and adds them to the outflow.
+void empty_outlets(Outflow& outflow, State& state, ContactNetwork& contacts, const Model& model);
+
+} // namespace talus

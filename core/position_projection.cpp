@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/position_projection.hpp"
+
+#include "core/tile_crew.hpp"
+
+namespace talus
+{
+namespace
+{
+
+void separate_spheres(const Contact& c, State& state, double share)
+{
+    const Motion& a = state.motion[c.a];
+    const Motion& b = state.motion[c.b];
+    const Vec3 across = state.position[c.a] - state.position[c.b];
+    const double distance = across.norm();
+    const double overlap = a.radius + b.radius - distance;
+    if (overlap <= 0.0) return;
+    const Vec3 normal = distance > 0.0 ? Vec3(across / distance) : c.normal;
+    const Vec3 shift = share * overlap / (a.inverse_mass + b.inverse_mass) * normal;
+    state.position[c.a] += a.inverse_mass * shift;
+    state.position[c.b] -= b.inverse_mass * shift;
+}
+
+/// The wall is taken for flat within a step: its gap is n·x less the level found when the step began.
+void separate_from_wall(const Contact& c, double wall_level, State& state, double share)
+{
+    const double overlap = wall_level - c.normal.dot(state.position[c.a]);
+    if (overlap > 0.0) state.position[c.a] += share * overlap * c.normal;
+}
+
+} // namespace
+
+void project_positions(const ContactNetwork& network, State& state, double share)
+{
+    const auto& spheres = network.sphere_contacts;
+    const auto& walls = network.wall_contacts;
+    const auto separate = [&](std::size_t tile) {
+        const auto first = network.pairs_of_tile[tile];
+        for (auto k = first; k < first + spheres.count[tile]; ++k) separate_spheres(spheres.contact[k], state, share);
+        const auto first_wall = network.wall_slots_of_tile[tile];
+        for (auto k = first_wall; k < first_wall + walls.count[tile]; ++k)
+            separate_from_wall(walls.contact[k], walls.geometry[k].wall_level, state, share);
+    };
+    with_tile_crew(network.tiles, [&](TileCrew& crew) { crew.color_by_color(separate); });
+}
+
+} // namespace talus

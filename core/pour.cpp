@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pour.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace talus
+{
+namespace
+{
+
+constexpr int tries = 50; ///< places tried for a sphere in one step before it has to wait
+
+/// Spheres that a newcomer in the region could touch.
+std::vector<std::size_t> spheres_near(const State& state, const Region& region, double radius)
+{
+    const Box around = region.bounds().grown(radius);
+    std::vector<std::size_t> near;
+    for (std::size_t i = 0; i < state.count(); ++i)
+        if (around.grown(state.radius(i)).contains(state.position[i])) near.push_back(i);
+    return near;
+}
+
+bool overlaps_sphere(const State& state, const std::vector<std::size_t>& near, const Vec3& x, double radius)
+{
+    return std::any_of(near.begin(), near.end(), [&](std::size_t i) {
+        const double least = radius + state.radius(i);
+        return (x - state.position[i]).squaredNorm() < least * least;
+    });
+}
+
+bool overlaps_wall(const Model& model, double time, const Vec3& x, double radius)
+{
+    std::vector<std::int32_t> patches;
+    return std::any_of(model.walls.begin(), model.walls.end(), [&](const Wall& wall) {
+        if (!wall.stands_at(time)) return false;
+        patches.clear();
+        patches_near(wall.shape, Box{x, x}.grown(radius), patches);
+        return std::any_of(patches.begin(), patches.end(), [&](std::int32_t k) {
+            return nearest_point(wall.shape, static_cast<std::size_t>(k), x).distance < radius;
+        });
+    });
+}
+
+} // namespace
+
+double SizeDistribution::mean_volume() const
+{
+    // The mean of d³ over a uniform distribution: (max⁴ − min⁴) / (4 (max − min)), written without the difference.
+    return std::numbers::pi / 24.0 * (max + min) * (max * max + min * min);
+}
+
+std::size_t pour(Pour& source, State& state, const Model& model)
+{
+    if (state.time < source.start) return 0;
+    const auto due =
+        std::min(source.count, 1 + static_cast<std::int64_t>(std::floor((state.time - source.start) * source.rate)));
+    if (source.poured >= due) return 0;
+
+    auto near = spheres_near(state, source.region, 0.5 * source.diameter.max);
+    std::size_t entered = 0;
+    while (source.poured < due) {
+        if (source.pending_diameter == 0.0) source.pending_diameter = source.diameter.draw(source.random);
+        const double radius = 0.5 * source.pending_diameter;
+        bool placed = false;
+        for (int k = 0; k < tries && !placed; ++k) {
+            const Vec3 x = source.region.random_point(source.random, radius);
+            if (overlaps_sphere(state, near, x, radius) || overlaps_wall(model, state.time, x, radius)) continue;
+            const double density = model.materials.list[static_cast<std::size_t>(source.material)].density;
+            near.push_back(add_sphere(state, x, radius, density, source.material, source.velocity));
+            placed = true;
+        }
+        if (!placed) {
+            ++source.refused;
+            break;
+        }
+        source.pending_diameter = 0.0;
+        ++source.poured;
+        ++entered;
+    }
+    return entered;
+}
+
+} // namespace talus

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/contact.hpp"
+#include "core/model.hpp"
+
+#include <algorithm>
+
+namespace talus
+{
+
+/// Υ = 1/(1 + 4τ/h) at τ = 2h, the critical damping of the note's step (physics.md 0.3).
+inline constexpr double upsilon = 1.0 / 9.0;
+
+/// σ N_min of `matched`: the softest normal compliance, in inverse mass sums, at which N_min warm-started sweeps
+/// neither boil nor creep (measured: stabilisation.md section 10).
+inline constexpr double sigma_per_sweep = 0.2;
+
+/// Share of an overlap that one position pass of `projected` removes: that of the note's step, 4Υ.
+inline constexpr double projected_share = 4.0 * upsilon;
+
+/// The normal law u_n + Σ_n λ_n ≥ q_n of one contact.
+struct NormalLaw {
+    double target;     ///< q_n [m/s]
+    double compliance; ///< Σ_n [1/kg]
+};
+
+/// What the law of a contact depends on.
+struct ContactEvent {
+    ContactKind kind;
+    double gap;              ///< g [m]
+    double u_n;              ///< of v⁽⁰⁾, before gravity [m/s]
+    double inverse_mass_sum; ///< W [1/kg]
+    double carried_normal;   ///< λ_n⁽⁰⁾ [N s]
+};
+
+/// Σ_n of a resting contact of `matched`: that of the material's stiffness k, but no stiffer than N_min sweeps can
+/// carry.
+inline double matched_compliance(const ContactLaw& law, double inverse_mass_sum, double h, int min_sweeps)
+{
+    return std::max(4.0 * upsilon / (law.stiffness * h * h), sigma_per_sweep / min_sweeps * inverse_mass_sum);
+}
+
+/// `matched` (the default): the note's own step, eq. (2), with a compliance that the sweeps can carry. Of the feedback
+/// on overlap, what exceeds the need of the carried impulse is capped, so that a deep overlap does not become a shot.
+inline NormalLaw matched_law(const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, double h)
+{
+    const double compliance = matched_compliance(law, event.inverse_mass_sum, h, solver.min_sweeps);
+    const double held = compliance * event.carried_normal;
+    const double push_out = std::min(-4.0 / h * upsilon * event.gap - held, solver.push_out_speed);
+    return {held + push_out + upsilon * event.u_n, compliance};
+}
+
+/// `projected`: rigid, u_n ≥ 0; overlap is removed by moving the spheres (position_projection.hpp).
+inline NormalLaw projected_law()
+{
+    return {0.0, 0.0};
+}
+
+/// The law of a contact by its kind: the table of design section 3.
+inline NormalLaw normal_law(const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, double h)
+{
+    switch (event.kind) {
+    case ContactKind::impact:
+        return {-law.restitution * event.u_n, 0.0};
+    case ContactKind::open:
+        return {-event.gap / h, 0.0};
+    case ContactKind::resting:
+        break;
+    }
+    return solver.stabilisation == Stabilisation::matched ? matched_law(event, law, solver, h) : projected_law();
+}
+
+/// Which law a contact follows in this step.
+/// @param u_n_ahead of v⁽¹⁾, with gravity; @param touched in the step before it overlapped or had an impulse
+inline ContactKind contact_kind(
+    double gap, double u_n, double u_n_ahead, bool touched, const ContactLaw& law, double h, double threshold_speed)
+{
+    const bool fast = law.restitution > 0.0 && u_n < -threshold_speed;
+    const bool begins = gap <= 0.0 ? !touched : gap + h * u_n_ahead < 0.0;
+    if (fast && begins) return ContactKind::impact;
+    return gap <= 0.0 ? ContactKind::resting : ContactKind::open;
+}
+
+} // namespace talus

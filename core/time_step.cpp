@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/time_step.hpp"
+
+#include "core/candidate_search.hpp"
+#include "core/contact_assembly.hpp"
+#include "core/curve_order.hpp"
+#include "core/gauss_seidel.hpp"
+#include "core/position_projection.hpp"
+#include "core/stabilisation.hpp"
+
+namespace talus
+{
+namespace
+{
+
+constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
+
+/// Brings the spheres into the order of a space-filling curve now and then, for the sake of the cache.
+void renumber_along_curve(State& state, ContactNetwork& contacts, const Model& model)
+{
+    if (state.steps % renumbering_interval != 0 || state.count() < 2) return;
+    contacts.listed_box.resize(state.count());
+    const auto order = curve_order(state.position);
+    renumber_spheres(state, order, state.count());
+    renumber_candidates(contacts, state, model, order);
+}
+
+/// v⁽¹⁾ = v⁽⁰⁾ + h g.
+void add_gravity(std::vector<Motion>& motion, const Vec3& gravity, double h)
+{
+    for (auto& m : motion) m.velocity += h * gravity;
+}
+
+/// x ← x + h v. Spheres are round: their orientation is not kept.
+void move_spheres(State& state, double h)
+{
+    for (std::size_t i = 0; i < state.count(); ++i) state.position[i] += h * state.motion[i].velocity;
+}
+
+/// A sphere whose centre is inside an outlet leaves lawfully, even if it is out of the outlet again when it is taken
+/// away.
+void mark_leaving(State& state, const std::vector<Region>& outlets)
+{
+    for (const auto& outlet : outlets)
+        for (std::size_t i = 0; i < state.count(); ++i)
+            if (outlet.contains(state.position[i])) state.leaving[i] = 1;
+}
+
+} // namespace
+
+StepReport advance(State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer)
+{
+    const double h = model.time_step;
+    const auto enter = [&](Phase phase) {
+        if (observer) observer(phase);
+    };
+    StepReport report;
+
+    // Which spheres and walls can touch during this step?
+    enter(Phase::search);
+    renumber_along_curve(state, contacts, model);
+    report.searched = update_candidates(contacts, state, model);
+    report.candidates = contacts.pairs.size() + contacts.wall_pairs.size();
+
+    // Which do, under which law, and with what impulse to begin with?
+    enter(Phase::assembly);
+    const auto survey = assemble_contacts(contacts, state, model);
+
+    // The velocity if nothing touched, v⁽¹⁾ = v⁽⁰⁾ + h M⁻¹ f, and with the impulses of the last step: v ← v + M⁻¹ Gᵀ
+    // λ⁰.
+    enter(Phase::warm_start);
+    add_gravity(state.motion, model.gravity, h);
+    const double warm_size = apply_warm_start(contacts, state.motion, model.physics);
+
+    // The contact impulses: every contact in turn until all laws hold.
+    enter(Phase::sweeps);
+    const auto solve = solve_contacts(contacts, state.motion, model.physics, model.solver, warm_size);
+
+    // Positions with the new velocity: x ← x + h v.
+    enter(Phase::positions);
+    move_spheres(state, h);
+    if (model.solver.stabilisation == Stabilisation::projected) project_positions(contacts, state, projected_share);
+    state.time = static_cast<double>(++state.steps) * h;
+
+    enter(Phase::report);
+    mark_leaving(state, model.outlets);
+    const auto outcome = carry_impulses(contacts, state);
+    auto spheres = survey_spheres(state, model);
+    report.sweeps = solve.sweeps;
+    report.residual = solve.residual;
+    report.converged = solve.converged;
+    report.contacts = survey.contacts;
+    report.overlapping = survey.overlapping;
+    report.worst_overlap = survey.worst_overlap;
+    report.mean_overlap = survey.overlapping ? survey.overlap_sum / static_cast<double>(survey.overlapping) : 0.0;
+    report.contact_energy = survey.contact_energy;
+    report.cone_violation = outcome.cone_violation;
+    report.wall_impulse = outcome.wall_impulse;
+    report.kinetic_energy = spheres.kinetic_energy;
+    report.potential_energy = spheres.potential_energy;
+    report.fastest_speed = spheres.fastest_speed;
+    report.long_moves = spheres.long_moves;
+    report.incidents = std::move(spheres.incidents);
+    return report;
+}
+
+} // namespace talus

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/contact_network.hpp"
+#include "core/diagnostics.hpp"
+#include "core/model.hpp"
+#include "core/state.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace talus
+{
+
+/// The phases of a step, in order. `advance` calls the observer when one begins.
+enum class Phase { search, assembly, warm_start, sweeps, positions, report };
+
+using PhaseObserver = std::function<void(Phase)>;
+
+/// How a step went. Returned by value, so nothing leaks from one step into the next.
+struct StepReport {
+    int sweeps = 0;
+    double residual = 0.0;            ///< ε after the last sweep (gauss_seidel.hpp)
+    bool converged = true;            ///< residual ≤ tolerance
+    std::size_t candidates = 0;       ///< listed pairs, walls included
+    std::size_t contacts = 0;         ///< contacts in the problem, walls included
+    std::size_t overlapping = 0;      ///< contacts with g < 0
+    double worst_overlap = 0.0;       ///< at the beginning of the step [m]
+    double mean_overlap = 0.0;        ///< over the overlapping contacts [m]
+    double cone_violation = 0.0;      ///< worst |λ_t| − μ λ_n [N s]
+    double kinetic_energy = 0.0;      ///< of the new velocities [J]
+    double potential_energy = 0.0;    ///< −Σ m g·x of the new positions [J]
+    double contact_energy = 0.0;      ///< ½ k g² stored in the compliant contacts at the beginning of the step [J]
+    double fastest_speed = 0.0;       ///< [m/s]
+    std::size_t long_moves = 0;       ///< spheres that moved more than 0.1 d in the step
+    std::size_t searched = 0;         ///< spheres whose neighbours were searched anew
+    Vec3 wall_impulse = Vec3::Zero(); ///< Σ λ over all wall contacts, on the spheres [N s]
+    std::vector<Incident> incidents;  ///< empty in every healthy step
+};
+
+/// Advances the state by one step h: velocities first, then positions.
+///
+/// `contacts` belongs to `state`: it carries the candidate list and the impulses from step to step.
+StepReport advance(State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer = {});
+
+} // namespace talus

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scenarios/packing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+namespace talus
+{
+namespace
+{
+
+constexpr int tries = 2000; ///< places tried for one sphere of a random packing
+
+bool touches_wall(const Model& model, const PackedSphere& sphere)
+{
+    std::vector<std::int32_t> patches;
+    return std::any_of(model.walls.begin(), model.walls.end(), [&](const Wall& wall) {
+        if (!wall.stands_at(0.0)) return false;
+        patches.clear();
+        patches_near(wall.shape, Box{sphere.center, sphere.center}.grown(sphere.radius), patches);
+        return std::any_of(patches.begin(), patches.end(), [&](std::int32_t k) {
+            return nearest_point(wall.shape, static_cast<std::size_t>(k), sphere.center).distance < sphere.radius;
+        });
+    });
+}
+
+/// Spheres sorted into cubes as large as the largest of them, to find those near a place.
+class SphereGrid
+{
+public:
+    explicit SphereGrid(double edge) : edge_(edge) {}
+
+    void add(const PackedSphere& sphere) { cells_[key(sphere.center)].push_back(sphere); }
+
+    bool overlaps(const PackedSphere& sphere) const
+    {
+        for (int dx = -1; dx <= 1; ++dx)
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dz = -1; dz <= 1; ++dz)
+                    if (overlaps_in(key(sphere.center + edge_ * Vec3(dx, dy, dz)), sphere)) return true;
+        return false;
+    }
+
+private:
+    std::uint64_t key(const Vec3& x) const
+    {
+        std::uint64_t k = 0;
+        for (int d = 0; d < 3; ++d)
+            k = (k << 21) ^
+                (static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x[d] / edge_))) & 0x1fffff);
+        return k;
+    }
+
+    bool overlaps_in(std::uint64_t cell, const PackedSphere& sphere) const
+    {
+        const auto found = cells_.find(cell);
+        return found != cells_.end() &&
+               std::any_of(found->second.begin(), found->second.end(), [&](const PackedSphere& other) {
+                   const double least = sphere.radius + other.radius;
+                   return (sphere.center - other.center).squaredNorm() < least * least;
+               });
+    }
+
+    double edge_;
+    std::unordered_map<std::uint64_t, std::vector<PackedSphere>> cells_;
+};
+
+Vec3 random_in_ball(Random& random)
+{
+    for (;;) {
+        const Vec3 x(2.0 * uniform(random) - 1.0, 2.0 * uniform(random) - 1.0, 2.0 * uniform(random) - 1.0);
+        if (x.squaredNorm() <= 1.0) return x;
+    }
+}
+
+/// The directions of a lattice whose layers are stacked against gravity.
+struct LatticeFrame {
+    Vec3 up, e1, e2;
+
+    explicit LatticeFrame(const Vec3& gravity) : up(gravity.isZero() ? Vec3::UnitZ() : Vec3(-gravity.normalized()))
+    {
+        // Along the axes of the world where gravity is along one, so that box-shaped regions are filled to their
+        // corners.
+        e1 = std::abs(up[0]) < 0.9 ? (Vec3::UnitX() - up[0] * up).normalized()
+                                   : (Vec3::UnitY() - up[1] * up).normalized();
+        e2 = up.cross(e1);
+    }
+};
+
+} // namespace
+
+std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistribution& diameter, std::int64_t count,
+    double spacing, const Model& model, Random& random)
+{
+    const double a = spacing * diameter.max; // distance of nearest lattice points
+    const LatticeFrame frame(model.gravity);
+    const Box bounds = region.bounds();
+    const Vec3 middle = bounds.center();
+    // Half the region's size along each direction of the frame.
+    const auto half = [&](const Vec3& e) { return 0.5 * bounds.extent().dot(e.cwiseAbs()); };
+    const double layer_height = a / std::sqrt(2.0);
+    const auto layers = static_cast<std::int64_t>(2.0 * half(frame.up) / layer_height) + 2;
+    const auto rows = static_cast<std::int64_t>(half(frame.e1) / a) + 2;
+    const auto columns = static_cast<std::int64_t>(half(frame.e2) / a) + 2;
+
+    std::vector<PackedSphere> spheres;
+    for (std::int64_t k = 0; k < layers; ++k) {
+        // Square layers, each above the hollows of the one below.
+        const double shift = k % 2 == 0 ? 0.0 : 0.5 * a;
+        for (std::int64_t i = -rows; i <= rows; ++i)
+            for (std::int64_t j = -columns; j <= columns; ++j) {
+                if (static_cast<std::int64_t>(spheres.size()) == count) return spheres;
+                const double radius = 0.5 * diameter.draw(random);
+                const Vec3 jitter = (0.5 * a - radius) * random_in_ball(random);
+                const Vec3 point = middle + (static_cast<double>(i) * a + shift) * frame.e1 +
+                                   (static_cast<double>(j) * a + shift) * frame.e2 +
+                                   (0.5 * a - half(frame.up) + static_cast<double>(k) * layer_height) * frame.up;
+                const PackedSphere sphere{point + jitter, radius};
+                if (region.contains(sphere.center, radius) && !touches_wall(model, sphere)) spheres.push_back(sphere);
+            }
+    }
+    return spheres;
+}
+
+std::vector<PackedSphere> random_packing(const Region& region, const SizeDistribution& diameter, std::int64_t count,
+    const std::vector<PackedSphere>& others, const Model& model, Random& random)
+{
+    double largest = diameter.max;
+    for (const auto& sphere : others) largest = std::max(largest, 2.0 * sphere.radius);
+    SphereGrid grid(largest);
+    for (const auto& sphere : others) grid.add(sphere);
+
+    std::vector<PackedSphere> spheres;
+    while (static_cast<std::int64_t>(spheres.size()) < count) {
+        const double radius = 0.5 * diameter.draw(random);
+        bool placed = false;
+        for (int k = 0; k < tries && !placed; ++k) {
+            const PackedSphere sphere{region.random_point(random, radius), radius};
+            placed = !grid.overlaps(sphere) && !touches_wall(model, sphere);
+            if (!placed) continue;
+            grid.add(sphere);
+            spheres.push_back(sphere);
+        }
+        if (!placed) break;
+    }
+    return spheres;
+}
+
+} // namespace talus

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/model.hpp"
+#include "core/pour.hpp"
+#include "core/region.hpp"
+
+#include <vector>
+
+namespace talus
+{
+
+/// A sphere of a packing: its centre and radius.
+struct PackedSphere {
+    Vec3 center;
+    double radius;
+};
+
+/// A jittered lattice, filled layer by layer from below (against gravity) until `count` spheres are placed or the
+/// region is full: a face-centred lattice with `spacing` times the largest diameter between its points, each sphere
+/// moved at random within the room that the spacing leaves, so that nothing overlaps and no layer stays a crystal.
+/// Places where a sphere would touch a wall that stands at time 0 are left out.
+std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistribution& diameter, std::int64_t count,
+    double spacing, const Model& model, Random& random);
+
+/// Spheres at random places without overlap; gives up on one after 2000 tries, so it may return fewer than asked for.
+/// @param others already there, kept clear of
+std::vector<PackedSphere> random_packing(const Region& region, const SizeDistribution& diameter, std::int64_t count,
+    const std::vector<PackedSphere>& others, const Model& model, Random& random);
+
+} // namespace talus

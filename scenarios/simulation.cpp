@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scenarios/simulation.hpp"
+
+#include "core/neighbor_search.hpp"
+
+namespace talus
+{
+namespace
+{
+
+constexpr std::int64_t outlet_interval =
+    10; ///< steps between two emptyings of the outlets, each of which renumbers all spheres
+
+} // namespace
+
+StepReport step(Simulation& simulation, const PhaseObserver& observer)
+{
+    for (auto& source : simulation.pours) pour(source, simulation.state, simulation.model);
+    if (simulation.state.steps % outlet_interval == 0)
+        empty_outlets(simulation.outflow, simulation.state, simulation.contacts, simulation.model);
+    return advance(simulation.state, simulation.contacts, simulation.model, observer);
+}
+
+OverlapCheck check_overlaps(const Simulation& simulation)
+{
+    const auto& state = simulation.state;
+    OverlapCheck check;
+    const auto note = [&](double overlap, std::int64_t id_a, std::int64_t id_b, std::int32_t wall) {
+        if (overlap <= 0.0) return;
+        ++check.count;
+        if (overlap <= check.worst) return;
+        check.worst = overlap;
+        check.id_a = id_a;
+        check.id_b = id_b;
+        check.wall = wall;
+    };
+
+    std::vector<Box> boxes;
+    for (std::size_t i = 0; i < state.count(); ++i)
+        boxes.push_back(Box{state.position[i], state.position[i]}.grown(state.radius(i)));
+    for (const auto& [a, b] : find_box_pairs(boxes))
+        note(state.radius(a) + state.radius(b) - (state.position[a] - state.position[b]).norm(), state.id[a],
+            state.id[b], -1);
+
+    std::vector<std::int32_t> patches;
+    for (std::size_t i = 0; i < state.count(); ++i)
+        for (std::size_t w = 0; w < simulation.model.walls.size(); ++w) {
+            const auto& wall = simulation.model.walls[w];
+            if (!wall.stands_at(state.time)) continue;
+            patches.clear();
+            patches_near(wall.shape, boxes[i], patches);
+            double nearest = infinity;
+            for (const auto k : patches)
+                nearest = std::min(
+                    nearest, nearest_point(wall.shape, static_cast<std::size_t>(k), state.position[i]).distance);
+            note(state.radius(i) - nearest, state.id[i], -1, static_cast<std::int32_t>(w));
+        }
+    return check;
+}
+
+} // namespace talus

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/contact_network.hpp"
+#include "core/model.hpp"
+#include "core/outlet.hpp"
+#include "core/pour.hpp"
+#include "core/sensor.hpp"
+#include "core/state.hpp"
+#include "core/time_step.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+
+/// A simulation ready to run: the constant model, the state, and what feeds, empties and watches it.
+struct Simulation {
+    Model model;
+    State state;
+    ContactNetwork contacts;
+    std::vector<Pour> pours;
+    Outflow outflow;
+    std::vector<std::unique_ptr<Sensor>> sensors;
+    double duration = 0.0;         ///< [s]
+    std::string step_explanation;  ///< one line: where the time step comes from
+    std::string model_explanation; ///< one line: what the run models and what it leaves out
+    std::string overlap_forecast;  ///< one line: the stiffness cap of `matched` and the overlap that it implies
+};
+
+/// Lets poured spheres in, advances by one step, and takes away the spheres that are in an outlet.
+StepReport step(Simulation& simulation, const PhaseObserver& observer = {});
+
+/// Overlaps of the spheres as they lie: how many contacts, and the worst of them.
+struct OverlapCheck {
+    std::size_t count = 0;
+    double worst = 0.0;     ///< [m]
+    std::int64_t id_a = -1; ///< of the worst pair
+    std::int64_t id_b = -1; ///< −1 where it is a wall
+    std::int32_t wall = -1;
+};
+OverlapCheck check_overlaps(const Simulation& simulation);
+
+} // namespace talus

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scenarios/step_choice.hpp"
+
+#include "core/stabilisation.hpp"
+#include "scenarios/build_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace talus
+{
+namespace
+{
+
+constexpr double gravity_share = 0.008; ///< h / √(d/g); 0.003 is fine, above 0.016 only if the scene insists
+constexpr double longest_move = 0.1;    ///< diameters in a step
+
+template <class... Numbers> std::string text(const char* format, Numbers... numbers)
+{
+    char buffer[300];
+    std::snprintf(buffer, sizeof buffer, format, numbers...);
+    return buffer;
+}
+
+/// How far a sphere can fall: along gravity through everything that bounds the scene.
+double fall_height(const Simulation& simulation)
+{
+    const auto& model = simulation.model;
+    if (model.gravity.isZero()) return 0.0;
+    const Vec3 up = -model.gravity.normalized();
+    double highest = -infinity, lowest = infinity;
+    const auto span = [&](const Box& box) {
+        const double middle = box.center().dot(up), half = 0.5 * box.extent().dot(up.cwiseAbs());
+        lowest = std::min(lowest, middle - half);
+        return middle + half;
+    };
+    for (const auto& pour : simulation.pours) highest = std::max(highest, span(pour.region.bounds()));
+    Box spheres;
+    for (std::size_t i = 0; i < simulation.state.count(); ++i)
+        spheres.extend(
+            Box{simulation.state.position[i], simulation.state.position[i]}.grown(simulation.state.radius(i)));
+    if (!spheres.empty()) highest = std::max(highest, span(spheres));
+    for (const auto& wall : model.walls) {
+        const Box box = bounds(wall.shape);
+        if (!box.empty()) span(box);
+        if (const auto* plane = std::get_if<Plane>(&wall.shape); plane && plane->normal.dot(up) > 0.99)
+            lowest = std::min(lowest, plane->point.dot(up));
+    }
+    for (const auto& outlet : model.outlets) span(outlet.bounds());
+    return std::max(0.0, highest - lowest);
+}
+
+double fastest_speed(const Simulation& simulation)
+{
+    double start = 0.0;
+    for (const auto& m : simulation.state.motion) start = std::max({start, m.velocity.norm(), m.rim_velocity.norm()});
+    for (const auto& pour : simulation.pours) start = std::max(start, pour.velocity.norm());
+    return std::sqrt(start * start + 2.0 * simulation.model.gravity.norm() * fall_height(simulation));
+}
+
+} // namespace
+
+StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation)
+{
+    const auto& model = simulation.model;
+    StepChoice choice;
+    choice.fastest_speed = fastest_speed(simulation);
+    const double from_gravity = gravity_share * std::sqrt(model.min_diameter / model.gravity.norm());
+    const double from_speed = longest_move * model.min_diameter / choice.fastest_speed;
+    const double automatic = std::min(from_gravity, from_speed);
+    if (scene.time.step.name != "auto") {
+        choice.step = scene.time.step.number;
+        choice.explanation =
+            text("step %.4g ms: given by the scene (auto would be %.4g ms)", 1e3 * choice.step, 1e3 * automatic);
+        return choice;
+    }
+    if (!std::isfinite(automatic))
+        throw SceneError("time.step", "without gravity and speeds there is no automatic step: give one in seconds");
+    choice.step = automatic;
+    choice.explanation =
+        from_gravity <= from_speed
+            ? text("step %.4g ms = 0.008 sqrt(d/g) for the smallest d = %.4g mm (the fastest fall, %.3g m/s, moves "
+                   "%.2g d in it)",
+                  1e3 * automatic, 1e3 * model.min_diameter, choice.fastest_speed,
+                  choice.fastest_speed * automatic / model.min_diameter)
+            : text("step %.4g ms: the fastest sphere, %.3g m/s, moves 0.1 d in it (0.008 sqrt(d/g) would be %.4g ms)",
+                  1e3 * automatic, choice.fastest_speed, 1e3 * from_gravity);
+    return choice;
+}
+
+std::string forecast_overlap(const Simulation& simulation)
+{
+    const auto& model = simulation.model;
+    if (model.solver.stabilisation != Stabilisation::matched) return {};
+    const double h = model.time_step, d = model.mean_diameter;
+    const auto n = model.solver.min_sweeps;
+    const double density = model.materials.list[0].density;
+    const double inverse_mass_sum = 2.0 / (density * std::numbers::pi / 6.0 * d * d * d);
+    const double stiffness = 4.0 * upsilon / (sigma_per_sweep / n * inverse_mass_sum * h * h);
+    const double of_layer = 0.4 * model.gravity.norm() * h * h / (n * d);
+    return text("contacts of two spheres are at most %.3g N/m stiff; a bed Z diameters high overlaps by %.2g Z d on "
+                "average, twice that at its bottom",
+        stiffness, of_layer);
+}
+
+} // namespace talus
