@@ -9,19 +9,25 @@ namespace talus
 namespace
 {
 
-constexpr double skin = 0.08;          ///< growth of a listed box on each side, in smallest diameters
-constexpr double horizon_steps = 20.0; ///< steps along its way for which a listed box is drawn out …
-constexpr double longest_draw = 1.0;   ///< … but by this many smallest diameters at most
-constexpr double worn_share = 0.5; ///< a sphere that has used up so much of its skin is searched for along with others
-constexpr double few = 0.3;        ///< share of the spheres up to which they are searched for alone
+constexpr double skin = 0.08;         ///< growth of a listed box on each side, in smallest diameters …
+constexpr double skin_per_draw = 0.2; ///< … and this share of what it is drawn out: fast grains stray more
+constexpr double horizon_steps = 20;  ///< steps along its way for which a listed box is drawn out …
+constexpr double longest_draw = 1.0;  ///< … but by this many smallest diameters at most
+constexpr double worn_share = 0.25; ///< a sphere that has used up so much of its skin is searched for along with others
+constexpr double few = 0.3;         ///< share of the spheres up to which they are searched for alone
+
+/// Room around the centre of sphere i that its surface takes, with half the reach of its contacts.
+double needed_radius(const State& state, const Model& model, std::size_t i)
+{
+    return state.radius(i) + 0.5 * open_contact_reach * model.min_diameter;
+}
 
 /// The room that sphere i takes, and would take after the closing horizon, with the reach of its contacts.
 Box needed_box(const State& state, const Model& model, std::size_t i)
 {
-    const double r = state.radius(i) + 0.5 * open_contact_reach * model.min_diameter;
     const Vec3& x = state.position[i];
     const Vec3 move = closing_horizon * model.time_step * (state.motion[i].velocity + model.time_step * model.gravity);
-    return Box{x, x}.extend(Vec3(x + move)).grown(r);
+    return Box{x, x}.extend(Vec3(x + move)).grown(needed_radius(state, model, i));
 }
 
 Box new_listed_box(const State& state, const Model& model, std::size_t i)
@@ -31,7 +37,9 @@ Box new_listed_box(const State& state, const Model& model, std::size_t i)
     const double longest = longest_draw * model.min_diameter;
     if (draw.norm() > longest) draw *= longest / draw.norm();
     const Box now = needed_box(state, model, i);
-    return Box(now).extend(Box{now.min + draw, now.max + draw}).grown(skin * model.min_diameter);
+    return Box(now)
+        .extend(Box{now.min + draw, now.max + draw})
+        .grown(skin * model.min_diameter + skin_per_draw * draw.norm());
 }
 
 /// A pair or wall pair of the new list, and where its carried impulses come from.
@@ -238,11 +246,25 @@ std::int32_t find_old_wall_pair(const ContactNetwork& network, std::int32_t sphe
     return Source::none;
 }
 
-void search_spheres(Entries& entries, const ContactNetwork& network, const std::vector<std::int32_t>& movers)
+/// Whether two spheres can come within reach of each other while each stays inside its listed box.
+bool can_touch(const ContactNetwork& network, const State& state, const Model& model, const IndexPair& pair)
+{
+    const double ra = needed_radius(state, model, static_cast<std::size_t>(pair.a));
+    const double rb = needed_radius(state, model, static_cast<std::size_t>(pair.b));
+    const Box a = network.listed_box[pair.a].grown(-ra);
+    const Box b = network.listed_box[pair.b].grown(-rb);
+    const Vec3 apart = (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0);
+    return apart.squaredNorm() <= (ra + rb) * (ra + rb);
+}
+
+void search_spheres(Entries& entries, const ContactNetwork& network, const State& state, const Model& model,
+    const std::vector<std::int32_t>& movers)
 {
     const bool alone = static_cast<double>(movers.size()) < few * static_cast<double>(network.listed_box.size());
     const auto found = alone ? find_box_pairs(network.listed_box, movers) : find_box_pairs(network.listed_box);
-    for (const auto& pair : found) entries.pairs.push_back({pair, {find_old_pair(network, pair), false}});
+    for (const auto& pair : found)
+        if (can_touch(network, state, model, pair))
+            entries.pairs.push_back({pair, {find_old_pair(network, pair), false}});
     if (!alone) return;
 
     std::vector<std::uint8_t> moves(network.listed_box.size(), 0);
@@ -285,7 +307,7 @@ std::size_t update_candidates(ContactNetwork& network, const State& state, const
     for (const auto i : movers) network.listed_box[i] = new_listed_box(state, model, i);
 
     Entries entries;
-    search_spheres(entries, network, movers);
+    search_spheres(entries, network, state, model, movers);
     search_walls(entries, network, model, movers);
     lay_down(network, entries, state, model);
     return movers.size();

@@ -136,8 +136,13 @@ ContactSurvey assemble_sphere_contacts(
         const Motion& ma = state.motion[a];
         const Motion& mb = state.motion[b];
         const Vec3 across = state.position[a] - state.position[b];
-        const double distance = across.norm();
         const double radii = ma.radius + mb.radius;
+        const double closing = across.dot(ma.velocity - mb.velocity);
+        if (closing >= 0.0 && across.squaredNorm() > (radii + step.reach) * (radii + step.reach)) {
+            network.pair_carried.clear(k);
+            continue;
+        }
+        const double distance = across.norm();
         // Spheres with one centre are pushed apart along a fixed direction: any will do, but always the same.
         const Vec3 normal = distance > 0.0 ? Vec3(across / distance) : Vec3::UnitZ();
         const double u_n = normal.dot(ma.velocity - mb.velocity);

@@ -11,6 +11,7 @@ CarriedImpulses::CarriedImpulses(std::size_t slots, bool with_rolling)
 
 void CarriedImpulses::clear(std::size_t slot)
 {
+    if (!touched[slot]) return; // nothing is carried without
     impulse[slot].setZero();
     if (!rolling_impulse.empty()) rolling_impulse[slot].setZero();
     touched[slot] = 0;

@@ -30,7 +30,7 @@ private:
 };
 
 /// Below this number of boxes CGAL tries every pair; its default of 10 is 1.7 times slower (ecosystem.md section 5).
-constexpr std::ptrdiff_t cutoff = 1000;
+constexpr std::ptrdiff_t cutoff = 30;
 
 std::vector<SearchBox> search_boxes(const std::vector<Box>& boxes)
 {

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/open_scene.hpp"
+
+namespace talus
+{
+
+/// Prints what the scene holds and what a run of it needs: counts, step, model, memory and disk, overlaps at the start.
+void print_scene(const OpenedScene& opened);
+
+/// Prints where the step comes from, what is modelled, which overlap to expect, and which overlaps there are already.
+void print_explanations(const Simulation& simulation);
+
+/// Prints name and title of every scene that comes with Talus.
+void list_scenes();
+
+} // namespace talus

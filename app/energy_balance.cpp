@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/energy_balance.hpp"
+
+#include <algorithm>
+
+namespace talus
+{
+
+void EnergyBalance::add(const StepReport& report, bool same_spheres)
+{
+    if (!same_spheres) motion_energy_ = total_energy_ = std::nullopt;
+
+    // a report has the contact energy at the beginning of its step, which is the end of the step before
+    std::optional<double> total;
+    if (motion_energy_) total = *motion_energy_ + report.contact_energy;
+    if (total && total_energy_) {
+        lost_ += std::max(0.0, *total_energy_ - *total);
+        gained_ += std::max(0.0, *total - *total_energy_);
+    }
+    total_energy_ = total;
+    motion_energy_ = report.kinetic_energy + report.potential_energy;
+}
+
+} // namespace talus

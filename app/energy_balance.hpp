@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/time_step.hpp"
+
+#include <optional>
+
+namespace talus
+{
+
+/// Falls and rises of the total energy from step to step: kinetic + potential + stored in the contacts. Only steps with
+/// the same spheres are compared; what pours and outlets carry in and out is not a change of theirs.
+class EnergyBalance
+{
+public:
+    /// @param same_spheres whether those in the step are those of the step before
+    void add(const StepReport& report, bool same_spheres);
+
+    double lost() const { return lost_; }     ///< sum of the falls [J]
+    double gained() const { return gained_; } ///< sum of the rises [J]
+
+private:
+    double lost_ = 0.0, gained_ = 0.0;
+    std::optional<double> motion_energy_; ///< kinetic + potential at the end of the last step
+    std::optional<double> total_energy_;  ///< at the end of the step before it
+};
+
+} // namespace talus

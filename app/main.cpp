@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/check_scene.hpp"
+#include "app/command_line.hpp"
+#include "app/exit_code.hpp"
+#include "app/open_scene.hpp"
+#include "app/run_scene.hpp"
+#include "app/short_spins.hpp"
+#include "io/input_error.hpp"
+
+#include <fmt/format.h>
+
+namespace talus
+{
+namespace
+{
+
+ExitCode execute(const CommandLine& line)
+{
+    switch (line.verb) {
+    case CommandLine::Verb::run:
+        return run_scene(line);
+    case CommandLine::Verb::check:
+        print_scene(open_scene(line));
+        break;
+    case CommandLine::Verb::list:
+        list_scenes();
+        break;
+    }
+    return ExitCode::done;
+}
+
+ExitCode fail(ExitCode code, const std::string& sentence)
+{
+    fmt::print(stderr, "{}\n", sentence);
+    return code;
+}
+
+ExitCode execute_guarded(int argc, const char* const* argv)
+{
+    try {
+        const auto line = parse_command_line(argc, argv);
+        return line ? execute(*line) : ExitCode::done;
+    } catch (const UsageError& error) {
+        return fail(ExitCode::input, fmt::format("talus: {}", error.what()));
+    } catch (const InputError& error) {
+        return fail(ExitCode::input, error.what());
+    } catch (const OutputError& error) {
+        return fail(ExitCode::output, error.what());
+    } catch (const std::exception& error) {
+        return fail(
+            ExitCode::internal, fmt::format("talus: this is a fault of Talus, please report it: {}", error.what()));
+    }
+}
+
+} // namespace
+} // namespace talus
+
+int main(int argc, char** argv)
+{
+    talus::restart_with_short_spins(argv);
+    return static_cast<int>(talus::execute_guarded(argc, argv));
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/open_scene.hpp"
+
+#include "io/input_error.hpp"
+#include "scenarios/build_scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace talus
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+fs::path find_scene(const std::string& scene)
+{
+    if (fs::is_regular_file(scene)) return scene;
+    const fs::path supplied = fs::path(TALUS_SCENARIOS_FOLDER) / (scene + ".toml");
+    if (fs::is_regular_file(supplied)) return supplied;
+
+    std::vector<std::string> names;
+    for (const fs::path& path : supplied_scenes()) names.push_back(path.stem());
+    throw UsageError(
+        fmt::format("there is no scene '{}': it is neither a file nor one of {}", scene, fmt::join(names, ", ")));
+}
+
+SceneFile read_scene_as_asked(const CommandLine& line)
+{
+    SceneFile file = read_scene(find_scene(line.scene), line.overrides);
+    if (line.seed) file.scene.seed = *line.seed;
+    if (line.until) file.scene.time.duration = *line.until;
+    return file;
+}
+
+} // namespace
+
+OpenedScene open_scene(const CommandLine& line)
+{
+    SceneFile file = read_scene_as_asked(line);
+    try {
+        Simulation simulation = build_scene(file.scene);
+        return {file.path.stem(), std::move(file.scene), std::move(simulation)};
+    } catch (const SceneError& error) {
+        throw InputError(fmt::format("{}: {}", file.place_of(error.key), error.what()));
+    }
+}
+
+std::vector<fs::path> supplied_scenes()
+{
+    std::vector<fs::path> scenes;
+    for (const auto& entry : fs::directory_iterator(TALUS_SCENARIOS_FOLDER))
+        if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
+    std::sort(scenes.begin(), scenes.end());
+    return scenes;
+}
+
+} // namespace talus

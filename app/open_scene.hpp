@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/command_line.hpp"
+#include "io/scene_file.hpp"
+#include "scenarios/simulation.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+
+/// A scene that was read and built, ready to run.
+struct OpenedScene {
+    std::string name; ///< of the file, without folder and ending
+    scene::Scene scene;
+    Simulation simulation;
+};
+
+/// Finds, reads and builds the scene that the command line names, with what the command line changes in it.
+/// @throws InputError with file, line and column; UsageError where there is no such scene
+OpenedScene open_scene(const CommandLine& line);
+
+/// The scene files that come with Talus, by name.
+std::vector<std::filesystem::path> supplied_scenes();
+
+} // namespace talus

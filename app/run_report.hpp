@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/open_scene.hpp"
+#include "app/run_loop.hpp"
+#include "io/summary.hpp"
+
+#include <vector>
+
+namespace talus
+{
+
+/// Puts together what is left to say of a run that is over.
+RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const std::vector<Incident>& incidents);
+
+/// Prints the summary as a table: sensors, particle ledger, error, time per phase.
+void print_results(const RunSummary& summary);
+
+} // namespace talus

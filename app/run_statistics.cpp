@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/run_statistics.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace talus
+{
+
+void RunStatistics::add(const StepReport& report, const Simulation& simulation)
+{
+    residuals_.push_back(report.residual);
+    if (!report.converged) ++steps_at_cap_;
+
+    overlap_sum_ += report.mean_overlap * static_cast<double>(report.overlapping);
+    overlap_count_ += static_cast<double>(report.overlapping);
+    if (report.worst_overlap > worst_overlap_) {
+        worst_overlap_ = report.worst_overlap;
+        worst_overlap_time_ = simulation.state.time;
+    }
+    long_moves_ += static_cast<std::int64_t>(report.long_moves);
+    cone_violation_ = std::max(cone_violation_, report.cone_violation);
+    contact_updates_ += static_cast<double>(report.contacts) * report.sweeps;
+
+    const std::int64_t inserted = simulation.state.next_id, left = simulation.outflow.count;
+    energy_.add(report, inserted == inserted_ && left == left_);
+    inserted_ = inserted;
+    left_ = left;
+}
+
+ErrorSummary RunStatistics::error(const Model& model) const
+{
+    ErrorSummary error;
+    error.tolerance = model.solver.tolerance;
+    error.steps_at_cap = steps_at_cap_;
+    error.mean_overlap = overlap_count_ > 0.0 ? overlap_sum_ / overlap_count_ / model.mean_diameter : 0.0;
+    error.worst_overlap = worst_overlap_ / model.mean_diameter;
+    error.worst_overlap_time = worst_overlap_time_;
+    error.long_moves = long_moves_;
+    error.cone_violation = cone_violation_;
+    error.energy_lost = energy_.lost();
+    error.energy_gained = energy_.gained();
+    if (residuals_.empty()) return error;
+
+    std::vector<double> sorted = residuals_;
+    std::sort(sorted.begin(), sorted.end());
+    error.mean_residual = std::reduce(sorted.begin(), sorted.end()) / static_cast<double>(sorted.size());
+    error.residual_95 = sorted[static_cast<std::size_t>(0.95 * static_cast<double>(sorted.size() - 1))];
+    error.worst_residual = sorted.back();
+    return error;
+}
+
+} // namespace talus

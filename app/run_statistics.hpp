@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/energy_balance.hpp"
+#include "io/summary.hpp"
+#include "scenarios/simulation.hpp"
+
+#include <vector>
+
+namespace talus
+{
+
+/// Gathers the reports of all steps into what the run says about its own error.
+class RunStatistics
+{
+public:
+    /// Takes in the report of the step that the simulation has just made.
+    void add(const StepReport& report, const Simulation& simulation);
+
+    ErrorSummary error(const Model& model) const;
+
+    double contact_updates() const { return contact_updates_; } ///< contacts × sweeps
+
+private:
+    std::vector<double> residuals_;
+    std::int64_t steps_at_cap_ = 0;
+    double overlap_sum_ = 0.0, overlap_count_ = 0.0; ///< over all overlapping contacts of all steps
+    double worst_overlap_ = 0.0, worst_overlap_time_ = 0.0;
+    std::int64_t long_moves_ = 0;
+    double cone_violation_ = 0.0;
+    double contact_updates_ = 0.0;
+    EnergyBalance energy_;
+    std::int64_t inserted_ = 0, left_ = 0; ///< up to the last step
+};
+
+} // namespace talus

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads what a run of Talus left in its folder; a run still going on, or killed, reads as far as it came.
+
+Frames are read with VTK (Debian: python3-vtk9), which is loaded only then.
+"""
+import csv
+import json
+import tomllib
+import xml.etree.ElementTree as xml
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy
+
+
+class RunError(Exception):
+    """A run, or a part of it, that is not there; the text is one sentence for the user."""
+
+
+class Frame(NamedTuple):
+    time: float  # s
+    path: Path
+
+
+class Run:
+    """The folder of a run.
+
+    Raises RunError where the folder holds none.
+    """
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        if not (self.folder / "scene.resolved.toml").is_file():
+            raise RunError(f"{self.folder} holds no run of Talus: it has no scene.resolved.toml.")
+
+    def scene(self):
+        """The scene with all its keys, as nested dictionaries."""
+        path = self.folder / "scene.resolved.toml"
+        try:
+            return tomllib.loads(path.read_text(encoding="utf-8"))
+        except tomllib.TOMLDecodeError as error:
+            raise RunError(f"{path} is damaged: {error}.") from error
+
+    def title(self):
+        """The title of the scene, or the folder's name where it has none."""
+        return self.scene().get("title") or self.folder.resolve().name
+
+    def summary(self):
+        """summary.json as nested dictionaries; empty until the run has ended."""
+        path = self.folder / "summary.json"
+        if not path.is_file():
+            return {}
+        try:
+            return json.loads(path.read_text(encoding="utf-8"))
+        except json.JSONDecodeError as error:
+            raise RunError(f"{path} is damaged: {error}.") from error
+
+    def frames(self, series="particles"):
+        """The frames of particles, contacts or walls in order of time; empty where the run wrote none."""
+        path = self.folder / f"{series}.pvd"
+        if not path.is_file():
+            return []
+        try:
+            entries = xml.parse(path).iter("DataSet")
+        except xml.ParseError as error:
+            raise RunError(f"{path} is damaged: {error}.") from error
+        frames = [Frame(float(entry.get("timestep")), self.folder / entry.get("file")) for entry in entries]
+        return sorted(frames, key=lambda frame: frame.time)
+
+    def metrics(self):
+        """metrics.csv: the name of each column, with its unit, and its values; a last row half written is left out."""
+        path = self.folder / "metrics.csv"
+        if not path.is_file():
+            raise RunError(f"{path} is not there.")
+        with path.open(newline="", encoding="utf-8") as file:
+            header, *rows = list(csv.reader(file)) or [[]]
+        rows = [row for row in rows if len(row) == len(header)]
+        if not rows:
+            raise RunError(f"{path} has no rows yet.")
+        return dict(zip(header, numpy.array(rows, dtype=float).T))
+
+
+def read_frame(frame):
+    """The vtkPolyData of a frame.
+
+    Raises RunError where the file is missing or damaged.
+    """
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+    if not frame.path.is_file():
+        raise RunError(f"{frame.path} is not there, though the run lists it.")
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(frame.path))
+    reader.Update()
+    if reader.GetErrorCode():
+        raise RunError(f"{frame.path} is damaged.")
+    return reader.GetOutput()

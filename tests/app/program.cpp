@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/app/program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+const std::string beads_in_a_box = R"(title = "Beads in a box"
+[time]
+duration = 0.05
+frame_interval = 0.01
+metrics_interval = 0.01
+[materials.glass]
+density = 2500.0
+[[contact]]
+between = ["glass", "glass"]
+friction = 0.5
+[[fill]]
+material = "glass"
+count = 8
+diameter = 0.01
+region = { shape = "box", min = [0, 0, 0], max = [0.05, 0.05, 0.05] }
+[[wall]]
+name = "tray"
+shape = "box"
+material = "glass"
+min = [0, 0, 0]
+max = [0.05, 0.05, 0.05]
+open = ["z+"]
+)";
+
+Workplace::Workplace()
+{
+    std::string name = (fs::temp_directory_path() / "talus-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    folder_ = name;
+}
+
+Workplace::~Workplace()
+{
+    fs::remove_all(folder_);
+}
+
+void Workplace::write(const std::string& name, const std::string& text) const
+{
+    std::ofstream(path(name), std::ios::binary) << text;
+}
+
+std::string Workplace::read(const std::string& name) const
+{
+    std::ifstream file(path(name));
+    REQUIRE(file);
+    return (std::ostringstream() << file.rdbuf()).str();
+}
+
+Outcome Workplace::talus(const std::string& arguments, const std::string& limits) const
+{
+    const std::string command = "cd " + folder_.string() + " && { " + limits + " " TALUS_BINARY " " + arguments +
+                                "; } > stdout.txt 2> stderr.txt";
+    const int status = std::system(command.c_str());
+    REQUIRE(WIFEXITED(status));
+    return {WEXITSTATUS(status), read("stdout.txt"), read("stderr.txt")};
+}
+
+Outcome Workplace::run(const std::string& scene, const std::string& options) const
+{
+    write("scene.toml", scene);
+    return talus("run scene.toml -o out --threads 1 " + options);
+}
+
+std::string replaced(std::string text, const std::string& part, const std::string& replacement)
+{
+    const auto at = text.find(part);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, part.size(), replacement);
+}
+
+int line_of(const std::string& text, const std::string& part)
+{
+    const auto at = text.find(part);
+    REQUIRE(at != std::string::npos);
+    return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}

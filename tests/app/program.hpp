@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+/// How a call of the program ended.
+struct Outcome {
+    int exit_code = -1;
+    std::string out; ///< what it printed
+    std::string err; ///< what it complained about
+};
+
+/// A folder of a test's own, removed with it, in which the program is called.
+class Workplace
+{
+public:
+    Workplace();
+    ~Workplace();
+    Workplace(const Workplace&) = delete;
+    Workplace& operator=(const Workplace&) = delete;
+
+    std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+    void write(const std::string& name, const std::string& text) const;
+    std::string read(const std::string& name) const;
+    bool exists(const std::string& name) const { return std::filesystem::exists(path(name)); }
+
+    /// Calls `talus` with these arguments, as a shell reads them.
+    /// @param limits shell commands that come before, e.g. "ulimit -f 8;"
+    Outcome talus(const std::string& arguments, const std::string& limits = "") const;
+
+    /// Runs a scene text as scene.toml into the folder out, on one thread.
+    Outcome run(const std::string& scene, const std::string& options = "") const;
+
+private:
+    std::filesystem::path folder_;
+};
+
+/// Eight beads that fall onto the floor of a box: 0.05 s, six frames.
+extern const std::string beads_in_a_box;
+
+/// The text with one part of it replaced.
+/// @pre the part occurs
+std::string replaced(std::string text, const std::string& part, const std::string& replacement);
+
+/// The line in which the part occurs, counted from 1.
+/// @pre the part occurs
+int line_of(const std::string& text, const std::string& part);

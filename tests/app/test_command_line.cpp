@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/app/program.hpp"
+
+#include <catch2/catch.hpp>
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+TEST_CASE("wrong arguments end with 2 and one sentence", "[app][command line]")
+{
+    const Workplace place;
+    place.write("scene.toml", beads_in_a_box);
+    const std::string arguments = GENERATE(as<std::string>{}, "", "fly", "run", "run scene.toml --fast",
+        "run scene.toml --threads none", "run scene.toml --threads 0", "run scene.toml --until -1",
+        "run scene.toml --quiet --verbose", "run nowhere.toml", "check nowhere");
+    CAPTURE(arguments);
+    const Outcome outcome = place.talus(arguments);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.out.empty());
+    CHECK_THAT(outcome.err, StartsWith("talus: "));
+    CHECK(line_of(outcome.err + "|", "|") == 2);
+    CHECK_FALSE(place.exists("out"));
+}
+
+TEST_CASE("every verb has help with an example", "[app][command line]")
+{
+    const Workplace place;
+    const std::string verb = GENERATE(as<std::string>{}, "run", "check", "list");
+    const Outcome outcome = place.talus(verb + " --help");
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.out, Contains("Example: talus " + verb));
+}
+
+TEST_CASE("the version names the libraries", "[app][command line]")
+{
+    const Workplace place;
+    const Outcome outcome = place.talus("--version");
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.out, Contains("talus ") && Contains("Eigen 3") && Contains("CGAL 5") && Contains("VTK 9"));
+}
+
+TEST_CASE("list names every supplied scene with its title", "[app][command line]")
+{
+    const Workplace place;
+    const Outcome outcome = place.talus("list");
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.out, !Contains("cannot be read"));
+    for (const auto& entry : std::filesystem::directory_iterator(TALUS_SOURCE_DIR "/scenarios"))
+        if (entry.path().extension() == ".toml") CHECK_THAT(outcome.out, Contains(entry.path().stem().string() + " "));
+}
+
+TEST_CASE("check says what a scene holds and needs, and writes nothing", "[app][command line]")
+{
+    const Workplace place;
+    place.write("scene.toml", beads_in_a_box);
+    const Outcome outcome = place.talus("check scene.toml --until 0.1");
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.err.empty());
+    CHECK_THAT(
+        outcome.out, Contains("8 at the start") && Contains("walls: 1 ") && Contains("overlaps at the start: none"));
+    CHECK_THAT(outcome.out, Contains("memory: about") && Contains("disk: up to") && Contains("steps: "));
+    CHECK_FALSE(place.exists("out"));
+}
+
+TEST_CASE("check tells the overlaps that a scene starts with", "[app][command line]")
+{
+    // two single beads at the same place: each region has room for one only
+    const std::string one = R"(
+[[fill]]
+material = "glass"
+count = 1
+diameter = 0.01
+region = { shape = "box", min = [0.02, 0.02, 0.02], max = [0.0305, 0.0305, 0.0305] }
+)";
+    const Workplace place;
+    place.write("scene.toml", replaced(beads_in_a_box, "count = 8", "count = 0") + one + one);
+    const Outcome outcome = place.talus("check scene.toml");
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(
+        outcome.out, Contains("overlaps at the start: 1, the worst") && Contains("sphere 0") && Contains("sphere 1"));
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/app/program.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+using Catch::Matchers::Contains;
+
+namespace
+{
+
+/// A bead that slides over the edge of a table and falls out of the world, which ends five diameters below.
+const std::string table = R"(title = "A bead falls off a table"
+[time]
+duration = 1.0
+frame_interval = 0.05
+[materials.glass]
+density = 2500.0
+[[contact]]
+between = ["glass", "glass"]
+friction = 0.1
+[[fill]]
+material = "glass"
+count = 1
+diameter = 0.01
+region = { shape = "box", min = [-0.0051, -0.0051, 0.0], max = [0.0051, 0.0051, 0.0102] }
+velocity = [0.5, 0.0, 0.0]
+[[wall]]
+name = "table"
+shape = "disk"
+material = "glass"
+center = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+radius = 0.03
+)";
+
+} // namespace
+
+TEST_CASE("a sphere that escapes ends the run with 3, and is told with id, speed and the wall it left", "[app][guard]")
+{
+    const Workplace place;
+    const Outcome outcome = place.run(table);
+    CHECK(outcome.exit_code == 3);
+    CHECK_THAT(outcome.err, Contains("sphere 0 ") && Contains("outlet") && Contains("m/s") && Contains("'table'"));
+    CHECK_THAT(outcome.out, Contains("FAILED"));
+
+    const auto summary = nlohmann::json::parse(place.read("out/summary.json"));
+    CHECK(summary["status"] == "failed");
+    CHECK(summary["ledger"]["escaped"] == 1);
+    CHECK(summary["ledger"]["inside"] == 0);
+    CHECK(summary["ledger"]["closes"] == true);
+    const auto& incident = summary["incidents"].at(0);
+    CHECK(incident["kind"] == "escaped");
+    CHECK(incident["last_wall"] == "table");
+
+    // It stopped in the step in which it happened: a step before, the bead was still above the world's lower face.
+    const double below = -0.05 - incident["position"][2].get<double>();
+    const double one_step = summary["time"]["step"].get<double>() * incident["speed"].get<double>();
+    const double beside = incident["position"][0].get<double>() - 0.08;
+    CHECK(std::max(below, beside) >= 0.0);
+    CHECK(std::max(below, beside) <= one_step);
+}
+
+TEST_CASE("an escape loses no frame, and adds one of the step in which it happened", "[app][guard]")
+{
+    const Workplace place;
+    REQUIRE(place.run(table).exit_code == 3);
+    const auto summary = nlohmann::json::parse(place.read("out/summary.json"));
+    const double end = summary["time"]["simulated"];
+    const auto frames = static_cast<int>(end / 0.05) + 2; // at 0, 0.05, … and at the end
+
+    const std::string list = place.read("out/particles.pvd");
+    for (int k = 0; k < frames; ++k) {
+        const std::string frame = "frames/particles_00000" + std::to_string(k) + ".vtp";
+        CHECK(place.exists("out/" + frame));
+        CHECK_THAT(list, Contains(frame));
+    }
+    const std::string metrics = place.read("out/metrics.csv");
+    const std::string last = metrics.substr(metrics.rfind('\n', metrics.size() - 2) + 1);
+    CHECK(std::stod(last) == Approx(end));
+}

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/app/program.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <regex>
+#include <sstream>
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using nlohmann::json;
+
+namespace
+{
+
+/// Beads poured into the box fall through its open floor into an outlet.
+std::string stream()
+{
+    const std::string longer = replaced(beads_in_a_box, "duration = 0.05", "duration = 0.4");
+    return replaced(longer, "[\"z+\"]", "[\"z-\", \"z+\"]") + R"([[pour]]
+name = "source"
+material = "glass"
+count = 20
+rate = 100.0
+diameter = { distribution = "uniform", min = 0.008, max = 0.01 }
+region = { shape = "box", min = [0, 0, 0.05], max = [0.05, 0.05, 0.08] }
+[[outlet]]
+name = "drain"
+region = { shape = "box", min = [-0.1, -0.1, -0.2], max = [0.15, 0.15, -0.05] }
+[[sensor]]
+name = "drain"
+kind = "mass_flow"
+point = [0, 0, -0.02]
+from = 0.15
+to = 0.3
+)";
+}
+
+std::vector<double> frame_times(const std::string& pvd)
+{
+    static const std::regex timestep("timestep=\"([^\"]*)\"");
+    std::vector<double> times;
+    for (std::sregex_iterator match(pvd.begin(), pvd.end(), timestep), end; match != end; ++match)
+        times.push_back(std::stod((*match)[1]));
+    return times;
+}
+
+std::vector<std::string> lines(const std::string& text)
+{
+    std::vector<std::string> all;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) all.push_back(line);
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("the ledger of a run with pour and outlet closes", "[app][run]")
+{
+    const Workplace place;
+    const Outcome outcome = place.run(stream());
+    REQUIRE(outcome.exit_code == 0);
+    const json ledger = json::parse(place.read("out/summary.json"))["ledger"];
+    CHECK(ledger["inserted"] == 8 + 20);
+    CHECK(ledger["left"] > 8);
+    CHECK(ledger["escaped"] == 0);
+    CHECK(ledger["inside"].get<int>() + ledger["left"].get<int>() == 8 + 20);
+    CHECK(ledger["closes"] == true);
+    CHECK_THAT(outcome.out, Contains("28 inserted") && Contains("(closes)"));
+}
+
+TEST_CASE("the summary has the keys that scripts rely on", "[app][run]")
+{
+    const Workplace place;
+    REQUIRE(place.run(stream(), "--seed 7").exit_code == 0);
+    const json summary = json::parse(place.read("out/summary.json"));
+    CHECK(summary["status"] == "done");
+    CHECK(summary["scene"] == "scene");
+    CHECK(summary["seed"] == 7);
+    CHECK(summary["threads"] == 1);
+    CHECK(summary["time"]["simulated"] == Approx(0.4).epsilon(0.01));
+    const double counted = summary["time"]["step"].get<double>() * summary["time"]["steps"].get<double>();
+    CHECK(summary["time"]["simulated"] == Approx(counted));
+    CHECK(summary["error"]["residual"]["mean"] <= summary["error"]["residual"]["worst"]);
+    CHECK(summary["error"]["overlap_d"]["mean"] <= summary["error"]["overlap_d"]["worst"]);
+    CHECK(summary["timing"]["phases"].size() == 9);
+
+    const json& flow = summary["sensors"]["drain"];
+    REQUIRE(flow.size() >= 1);
+    for (const json& quantity : flow) {
+        CHECK(quantity["value"].is_number());
+        CHECK(quantity.contains("spread"));
+        CHECK(quantity["unit"].is_string());
+    }
+}
+
+TEST_CASE("the phases add up to the whole time of a run", "[app][run]")
+{
+    const Workplace place;
+    REQUIRE(place.run(beads_in_a_box).exit_code == 0);
+    const json timing = json::parse(place.read("out/summary.json"))["timing"];
+    double wall = 0.0;
+    for (const json& phase : timing["phases"]) wall += phase["wall"].get<double>();
+    CHECK(timing["wall"] == Approx(wall));
+    CHECK(timing["phases"]["sweeps"]["wall"] > 0.0);
+}
+
+TEST_CASE("frames and rows come at the first step at or after their due time, without drift", "[app][run]")
+{
+    const Workplace place;
+    REQUIRE(place.run(beads_in_a_box).exit_code == 0);
+    const double step = json::parse(place.read("out/summary.json"))["time"]["step"];
+    const auto times = frame_times(place.read("out/particles.pvd"));
+    const auto rows = lines(place.read("out/metrics.csv"));
+    REQUIRE(times.size() == 6);
+    REQUIRE(rows.size() == 1 + 6);
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        const double due = 0.01 * static_cast<double>(k);
+        CHECK(times[k] >= due - 1e-9);
+        CHECK(times[k] < due + step);
+        CHECK(std::stod(rows[1 + k]) <= due + step * (1 + 1e-9)); // the first row is that of the first step
+    }
+}
+
+TEST_CASE("metrics.csv names each column with its unit, sensors included", "[app][run]")
+{
+    const Workplace place;
+    REQUIRE(place.run(stream()).exit_code == 0);
+    const auto rows = lines(place.read("out/metrics.csv"));
+    CHECK_THAT(rows.at(0), StartsWith("time_s,spheres,inserted,left,contacts,sweeps,residual,worst_overlap_d,"));
+    CHECK_THAT(rows.at(0), Contains("kinetic_energy_J") && Contains(",drain_") && !Contains("/"));
+    const auto columns = std::count(rows[0].begin(), rows[0].end(), ',');
+    for (const std::string& row : rows) CHECK(std::count(row.begin(), row.end(), ',') == columns);
+}
+
+TEST_CASE("a wall that is taken away gives a new wall frame", "[app][run]")
+{
+    const Workplace place;
+    REQUIRE(place.run(replaced(beads_in_a_box, "name = \"tray\"", "name = \"tray\"\nremove_at = 0.03")).exit_code == 0);
+    const auto times = frame_times(place.read("out/walls.pvd"));
+    REQUIRE(times.size() == 2);
+    CHECK(times[0] == 0.0);
+    CHECK(times[1] == Approx(0.03).margin(1e-3));
+}
+
+TEST_CASE("contact frames are written at the first and the last step unless more are asked for", "[app][run]")
+{
+    const Workplace place;
+    REQUIRE(place.run(beads_in_a_box).exit_code == 0);
+    CHECK(frame_times(place.read("out/contacts.pvd")).size() == 2);
+    REQUIRE(place.run(beads_in_a_box, "--force --set output.contact_interval=0.01").exit_code == 0);
+    CHECK(frame_times(place.read("out/contacts.pvd")).size() == 6);
+}
+
+TEST_CASE("a pour that falls short says why", "[app][run]")
+{
+    const Workplace place;
+    REQUIRE(place.run(stream(), "--set pour.source.count=1000").exit_code == 0);
+    const std::string late = json::parse(place.read("out/summary.json"))["pours"][0]["shortfall"];
+    CHECK_THAT(late, Contains("ended before"));
+    REQUIRE(place.run(stream(), "--force --set pour.source.count=1000 --set pour.source.rate=1e5").exit_code == 0);
+    const std::string full = json::parse(place.read("out/summary.json"))["pours"][0]["shortfall"];
+    CHECK_THAT(full, Contains("no free place"));
+}
+
+TEST_CASE("the resolved scene runs again to the same metrics", "[app][run]")
+{
+    const Workplace place;
+    REQUIRE(place.run(stream(), "--set contact.glass-glass.friction=0.3 --until 0.2").exit_code == 0);
+    REQUIRE(place.talus("run out/scene.resolved.toml -o again --threads 1").exit_code == 0);
+    CHECK(place.read("again/metrics.csv") == place.read("out/metrics.csv"));
+}
+
+TEST_CASE("a quiet run prints nothing, a verbose one a line for every frame", "[app][run]")
+{
+    const Workplace place;
+    const Outcome quiet = place.run(beads_in_a_box, "--quiet");
+    CHECK(quiet.exit_code == 0);
+    CHECK(quiet.out + quiet.err == "");
+    const Outcome verbose = place.run(beads_in_a_box, "--force --verbose");
+    CHECK(lines(verbose.err).size() == 5);
+    CHECK_THAT(verbose.err, StartsWith("frame: t "));
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Seconds per step of beds at rest and of a discharging silo. Compare two builds by the ratio of figures of one
+// session:
+//   build/benchmark_step --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
+#include "scenarios/build_scene.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+
+using namespace talus;
+
+namespace
+{
+
+/// Spheres dropped into a flat-bottomed silo of the proportions of scenarios/silo.toml; its gate opens at gate_opens.
+scene::Scene silo(std::int64_t count, double gate_opens)
+{
+    scene::Scene scene;
+    const double radius = 0.1 * std::cbrt(static_cast<double>(count) / 10000.0);
+    scene.materials = {{"glass", 2500.0}};
+    scene.contact = {{.between = {"glass", "glass"}, .friction = 0.5, .restitution = 0.5}};
+    scene::FillTable fill{.material = "glass", .count = count};
+    fill.diameter = {.distribution = "uniform", .min = 0.0095, .max = 0.0105};
+    fill.region = {.shape = "cylinder", .base = Vec3(0, 0, 0.001), .radius = radius, .height = 10.0 * radius};
+    scene.fill = {fill};
+    scene::WallTable tube{.name = "tube", .shape = "cylinder", .material = "glass"};
+    tube.radius = radius;
+    tube.height = 11.0 * radius;
+    scene::WallTable bottom{.name = "bottom", .shape = "disk", .material = "glass"};
+    bottom.radius = radius;
+    bottom.hole_radius = 0.035;
+    scene::WallTable gate{.name = "gate", .shape = "disk", .material = "glass", .remove_at = gate_opens};
+    gate.radius = 0.037;
+    scene.wall = {tube, bottom, gate};
+    scene.outlet = {{"below", {.min = Vec3(-1, -1, -0.4), .max = Vec3(1, 1, -0.2)}}};
+    return scene;
+}
+
+/// Runs steps one by one and reports contact updates a second and the share of each phase.
+void run_steps(benchmark::State& run, Simulation& simulation)
+{
+    constexpr std::array<const char*, 6> names = {"search", "assembly", "warm_start", "sweeps", "positions", "report"};
+    std::array<double, names.size()> seconds{};
+    double updates = 0.0, sweeps = 0.0;
+    auto last = std::chrono::steady_clock::now();
+    auto phase = Phase::report;
+    const PhaseObserver clock = [&](Phase next) {
+        const auto now = std::chrono::steady_clock::now();
+        seconds[static_cast<std::size_t>(phase)] += std::chrono::duration<double>(now - last).count();
+        last = now;
+        phase = next;
+    };
+    for (auto _ : run) {
+        const auto report = step(simulation, clock);
+        updates += static_cast<double>(report.sweeps) * static_cast<double>(report.contacts);
+        sweeps += report.sweeps;
+    }
+    clock(Phase::report);
+    double all = 0.0;
+    for (const double s : seconds) all += s;
+    for (std::size_t k = 0; k < names.size(); ++k)
+        run.counters[std::string(names[k]) + "_%"] = 100.0 * seconds[k] / all;
+    run.counters["sweeps"] = sweeps / static_cast<double>(run.iterations());
+    run.counters["Mupdates/s"] = 1e-6 * updates / seconds[static_cast<std::size_t>(Phase::sweeps)];
+}
+
+void bed_at_rest(benchmark::State& run)
+{
+    auto simulation = build_scene(silo(run.range(0), infinity));
+    while (simulation.state.time < 0.4) step(simulation);
+    run_steps(run, simulation);
+}
+
+void discharge(benchmark::State& run)
+{
+    auto simulation = build_scene(silo(run.range(0), 0.3));
+    while (simulation.state.time < 0.5) step(simulation);
+    run_steps(run, simulation);
+}
+
+} // namespace
+
+BENCHMARK(bed_at_rest)
+    ->Arg(2000)
+    ->Arg(10000)
+    ->Iterations(400)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(discharge)
+    ->Arg(2000)
+    ->Arg(10000)
+    ->Iterations(400)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK_MAIN();
