@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "scenarios/simulation.hpp"
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkPolyData;
+
+namespace talus
+{
+
+/// Writes the VTK frames of a run: frames/particles_000123.vtp and so on, appended raw with LZ4, 32-bit floats, and
+/// after each the .pvd that lists them. Every file is replaced atomically, so that a running or killed run opens.
+/// README.md of this folder lists the arrays.
+class FrameWriter
+{
+public:
+    /// @param folder the run's output folder, which exists.
+    /// @throws OutputError
+    explicit FrameWriter(std::filesystem::path folder);
+
+    /// The spheres, in the order of their ids.
+    /// @throws OutputError
+    void write_particles(const State& state);
+
+    /// Contacts of the last step as lines with `force` (on the first sphere), `normal_force` [N], `gap`, ids.
+    /// @param threshold contacts with no more force than this are left out, in mean forces
+    /// @pre no sphere was removed or renumbered since that step
+    /// @throws OutputError
+    void write_contacts(const Simulation& simulation, double threshold);
+
+    /// The walls that stand at this time, as triangles with the wall's index. Planes are drawn as large as the world.
+    /// @throws OutputError
+    void write_walls(const Model& model, double time);
+
+private:
+    struct Series {
+        std::string name;
+        std::vector<std::pair<double, std::string>> frames; ///< time and file
+    };
+    std::filesystem::path folder_;
+    Series particles_{"particles", {}}, contacts_{"contacts", {}}, walls_{"walls", {}};
+
+    void add_frame(Series& series, double time, vtkPolyData& geometry);
+};
+
+} // namespace talus

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace talus
+{
+
+/// The name most like `word` by Levenshtein's distance; empty where more than a third of its letters would change.
+std::string_view nearest_name(std::string_view word, const std::vector<std::string_view>& names);
+
+/// The end of a sentence about an unknown word: "; did you mean 'friction'?", or nothing where no name is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& names);
+
+/// "'draft', 'standard' or 'fine'" with the conjunction "or".
+std::string enumerate_names(const std::vector<std::string_view>& names, std::string_view conjunction);
+
+} // namespace talus

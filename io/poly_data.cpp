@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/poly_data.hpp"
+
+#include "io/input_error.hpp"
+
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkFieldData.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <fmt/format.h>
+
+namespace talus
+{
+
+namespace
+{
+
+void add_time_and_units(vtkFieldData& data, double time)
+{
+    vtkNew<vtkDoubleArray> time_value;
+    time_value->SetName("TimeValue");
+    time_value->InsertNextValue(time);
+    data.AddArray(time_value);
+    vtkNew<vtkStringArray> units;
+    units->SetName("units");
+    units->InsertNextValue("SI");
+    data.AddArray(units);
+}
+
+} // namespace
+
+std::string vtp_bytes(vtkPolyData& geometry, double time)
+{
+    add_time_and_units(*geometry.GetFieldData(), time);
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToLZ4();
+    writer->SetHeaderTypeToUInt64();
+    writer->SetInputData(&geometry);
+    writer->WriteToOutputStringOn();
+    if (writer->Write() == 0 || writer->GetErrorCode() != vtkErrorCode::NoError)
+        throw OutputError(fmt::format("VTK cannot make the frame at {} s: error {}", time, writer->GetErrorCode()));
+    return writer->GetOutputString();
+}
+
+} // namespace talus

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/run_files.hpp"
+
+#include "io/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace talus
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/// The file that marks a folder as a run of Talus.
+constexpr const char* marker = "scene.resolved.toml";
+
+[[noreturn]] void refuse_output(const fs::path& path, const std::string& reason)
+{
+    throw OutputError(fmt::format("{}: cannot be written: {}", path.string(), reason));
+}
+
+/// Whether a run of Talus writes a file of this name into its folder or its `frames`.
+bool is_output_of_a_run(const std::string& name)
+{
+    constexpr std::array<std::string_view, 3> files = {"metrics.csv", "summary.json", marker};
+    constexpr std::array<std::string_view, 4> series = {"particles", "contacts", "walls", "checkpoint"};
+    for (const std::string_view file : files)
+        if (name == file || name == fmt::format("{}.tmp", file)) return true;
+    for (const std::string_view one : series)
+        if (name.starts_with(fmt::format("{}.", one)) || name.starts_with(fmt::format("{}_", one))) return true;
+    return false;
+}
+
+/// Removes what a run wrote, and nothing else: a user may keep notes and pictures beside it.
+void remove_run(const fs::path& folder)
+{
+    std::error_code error;
+    for (const fs::path& place : {folder / "frames", folder}) {
+        if (!fs::is_directory(place, error)) continue;
+        for (const auto& entry : fs::directory_iterator(place, error)) {
+            if (entry.is_directory() || !is_output_of_a_run(entry.path().filename().string())) continue;
+            std::error_code removal;
+            if (!fs::remove(entry.path(), removal)) refuse_output(entry.path(), removal.message());
+        }
+        if (error) refuse_output(place, error.message());
+    }
+}
+
+/// Writes all bytes and brings them to the disk; false with errno set where that fails.
+bool write_all(int descriptor, std::string_view bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return false;
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return ::fsync(descriptor) == 0;
+}
+
+std::string csv_field(const std::string& name)
+{
+    if (name.find_first_of(",\"\n") == std::string::npos) return name;
+    std::string quoted;
+    for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return fmt::format("\"{}\"", quoted);
+}
+
+} // namespace
+
+void make_run_folder(const fs::path& folder, const std::string& resolved_scene, bool force)
+{
+    std::error_code error;
+    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+        throw InputError(fmt::format("{}: is a file, not a folder for a run's output", folder.string()));
+    if (fs::is_directory(folder, error) && !fs::is_empty(folder, error)) {
+        if (error) refuse_output(folder, error.message());
+        if (!fs::exists(folder / marker, error))
+            throw InputError(fmt::format(
+                "{}: the folder holds files that are not of a run of Talus; choose another with -o", folder.string()));
+        if (!force)
+            throw InputError(fmt::format(
+                "{}: the folder holds a run already; --force replaces it, -o chooses another", folder.string()));
+        remove_run(folder);
+    }
+    fs::create_directories(folder, error);
+    if (error) refuse_output(folder, error.message());
+    write_atomically(folder / marker, resolved_scene);
+}
+
+void write_atomically(const fs::path& path, const std::string& text)
+{
+    const fs::path temporary = path.string() + ".tmp";
+    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor < 0) refuse_output(path, std::strerror(errno));
+    const int failure = write_all(descriptor, text) ? 0 : errno;
+    const bool closed = ::close(descriptor) == 0;
+    if (failure == 0 && closed && ::rename(temporary.c_str(), path.c_str()) == 0) return;
+    const std::string reason = std::strerror(failure != 0 ? failure : errno);
+    ::unlink(temporary.c_str());
+    refuse_output(path, reason);
+}
+
+MetricsFile::MetricsFile(const fs::path& path, const std::vector<std::string>& columns)
+    : path_(path), columns_(columns.size()), stream_(path)
+{
+    std::vector<std::string> fields;
+    for (const std::string& column : columns) fields.push_back(csv_field(column));
+    write_line(fmt::format("{}", fmt::join(fields, ",")));
+}
+
+void MetricsFile::add_row(const std::vector<double>& values)
+{
+    assert(values.size() == columns_);
+    write_line(fmt::format("{}", fmt::join(values, ",")));
+}
+
+void MetricsFile::write_line(const std::string& line)
+{
+    stream_ << line << '\n' << std::flush;
+    if (!stream_) refuse_output(path_, std::strerror(errno));
+}
+
+} // namespace talus

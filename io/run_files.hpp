@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+
+/// Makes the output folder of a run and marks it as Talus's own by writing scene.resolved.toml into it first.
+/// @param force replace the files of a run of Talus that the folder holds (others in it stay); a non-empty folder
+///   without scene.resolved.toml is never touched
+/// @throws InputError where the folder may not be used, OutputError where it cannot be written
+void make_run_folder(const std::filesystem::path& folder, const std::string& resolved_scene, bool force);
+
+/// Writes a whole file at once: to a temporary name, flushed to the disk, then renamed.
+/// @throws OutputError
+void write_atomically(const std::filesystem::path& path, const std::string& text);
+
+/// metrics.csv: a header of names with units, then a row a sample, flushed at once.
+class MetricsFile
+{
+public:
+    /// @param columns names with units
+    /// @throws OutputError
+    MetricsFile(const std::filesystem::path& path, const std::vector<std::string>& columns);
+
+    /// @pre one value for each column
+    /// @throws OutputError, at full disk too
+    void add_row(const std::vector<double>& values);
+
+private:
+    std::filesystem::path path_;
+    std::size_t columns_;
+    std::ofstream stream_;
+
+    void write_line(const std::string& line);
+};
+
+} // namespace talus

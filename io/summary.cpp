@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/summary.hpp"
+
+#include "io/run_files.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace talus
+{
+namespace
+{
+
+using Json = nlohmann::ordered_json; // it writes numbers that are not finite as null
+
+const char* kind_name(Incident::Kind kind)
+{
+    switch (kind) {
+    case Incident::Kind::escaped:
+        return "escaped";
+    case Incident::Kind::not_a_number:
+        return "not_a_number";
+    case Incident::Kind::blow_up:
+        return "blow_up";
+    }
+    return "";
+}
+
+const char* sentence_of(Incident::Kind kind)
+{
+    switch (kind) {
+    case Incident::Kind::escaped:
+        return "left the world where there is no outlet";
+    case Incident::Kind::not_a_number:
+        return "has a position or velocity that is not a number";
+    case Incident::Kind::blow_up:
+        return "moves faster than anything in this scene can";
+    }
+    return "";
+}
+
+Json to_json(const Incident& incident, const std::vector<std::string>& wall_names)
+{
+    const auto& x = incident.position;
+    Json json = {{"kind", kind_name(incident.kind)}, {"id", incident.id}, {"position", {x.x(), x.y(), x.z()}},
+        {"speed", incident.speed}, {"last_wall", nullptr}, {"sentence", describe(incident, wall_names)}};
+    if (incident.last_wall >= 0) json["last_wall"] = wall_names[static_cast<std::size_t>(incident.last_wall)];
+    return json;
+}
+
+Json incidents_json(const RunSummary& summary)
+{
+    Json json = Json::array();
+    for (const Incident& incident : summary.incidents) json.push_back(to_json(incident, summary.wall_names));
+    return json;
+}
+
+Json to_json(const ParticleLedger& ledger)
+{
+    return {{"inserted", ledger.inserted}, {"inside", ledger.inside}, {"left", ledger.left},
+        {"escaped", ledger.escaped}, {"closes", ledger.closes()}};
+}
+
+Json to_json(const std::vector<PourSummary>& pours)
+{
+    Json json = Json::array();
+    for (const PourSummary& pour : pours)
+        json.push_back(
+            {{"name", pour.name}, {"asked", pour.asked}, {"poured", pour.poured}, {"shortfall", pour.shortfall}});
+    return json;
+}
+
+Json to_json(const std::vector<SensorSummary>& sensors)
+{
+    Json json = Json::object();
+    for (const SensorSummary& sensor : sensors) {
+        Json& quantities = json[sensor.name] = Json::object();
+        for (const Measurement& m : sensor.results)
+            quantities[m.name] = {{"value", m.value}, {"spread", m.spread}, {"unit", m.unit}};
+    }
+    return json;
+}
+
+Json to_json(const ErrorSummary& error)
+{
+    return {{"residual",
+                {{"tolerance", error.tolerance}, {"mean", error.mean_residual}, {"percentile_95", error.residual_95},
+                    {"worst", error.worst_residual}, {"steps_at_cap", error.steps_at_cap}}},
+        {"overlap_d",
+            {{"mean", error.mean_overlap}, {"worst", error.worst_overlap}, {"worst_at", error.worst_overlap_time}}},
+        {"long_moves", error.long_moves}, {"cone_violation", error.cone_violation},
+        {"energy", {{"lost", error.energy_lost}, {"gained", error.energy_gained}}}};
+}
+
+Json to_json(const TimingSummary& timing)
+{
+    Json phases = Json::object();
+    for (const PhaseTime& phase : timing.phases) phases[phase.name] = {{"wall", phase.wall}, {"cpu", phase.cpu}};
+    return {{"wall", timing.wall}, {"cpu", timing.cpu}, {"phases", phases}, {"contact_updates", timing.contact_updates},
+        {"contact_updates_per_cpu_second", timing.contact_update_rate}};
+}
+
+} // namespace
+
+std::string describe(const Incident& incident, const std::vector<std::string>& wall_names)
+{
+    const auto& x = incident.position;
+    const std::string touched = incident.last_wall < 0 ? "it has touched no wall"
+                                                       : fmt::format("the wall it touched last is '{}'",
+                                                             wall_names[static_cast<std::size_t>(incident.last_wall)]);
+    return fmt::format("sphere {} {}: it is at ({:.4g}, {:.4g}, {:.4g}) m with {:.4g} m/s, and {}", incident.id,
+        sentence_of(incident.kind), x.x(), x.y(), x.z(), incident.speed, touched);
+}
+
+void write_summary(const std::filesystem::path& path, const RunSummary& summary)
+{
+    const Json json = {{"status", summary.incidents.empty() ? "done" : "failed"},
+        {"incidents", incidents_json(summary)}, {"version", summary.version}, {"scene", summary.scene},
+        {"title", summary.title}, {"seed", summary.seed}, {"threads", summary.threads},
+        {"time", {{"simulated", summary.simulated_time}, {"step", summary.time_step}, {"steps", summary.steps}}},
+        {"ledger", to_json(summary.ledger)}, {"pours", to_json(summary.pours)}, {"sensors", to_json(summary.sensors)},
+        {"error", to_json(summary.error)}, {"timing", to_json(summary.timing)}};
+    // a title may hold bytes that are not UTF-8 text; they must not cost the summary of a finished run
+    write_atomically(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+} // namespace talus

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/toml_value.hpp"
+
+#include "io/input_error.hpp"
+#include "io/nearest_name.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace talus
+{
+
+namespace
+{
+
+/// "a number above 0 [s] or inf", "three numbers [m]".
+std::string expected_numbers(std::string_view noun, const Key& key)
+{
+    const auto& allowed = key.allowed;
+    std::string text(noun);
+    if (allowed.min > -infinity) text += fmt::format(" {} {}", allowed.open ? "above" : "of at least", allowed.min);
+    if (allowed.max < infinity) text += fmt::format(" and at most {}", allowed.max);
+    if (!key.unit.empty()) text += fmt::format(" [{}]", key.unit);
+    if (allowed.infinite) text += " or inf";
+    return text;
+}
+
+std::string expected_names(const scene::Allowed& allowed)
+{
+    return allowed.names.empty() ? "a string" : enumerate_names(allowed.names, "or");
+}
+
+bool is_allowed(double number, const scene::Allowed& allowed)
+{
+    if (std::isnan(number) || (std::isinf(number) && !allowed.infinite)) return false;
+    return (allowed.open ? number > allowed.min : number >= allowed.min) && number <= allowed.max;
+}
+
+/// The number, whole or not, that a node is, if it is allowed.
+std::optional<double> allowed_number(const toml::node& node, const scene::Allowed& allowed)
+{
+    const auto number = node.is_number() ? node.value<double>() : std::nullopt;
+    return number && is_allowed(*number, allowed) ? number : std::nullopt;
+}
+
+bool is_allowed(const std::string& text, const scene::Allowed& allowed)
+{
+    return allowed.names.empty() || std::ranges::find(allowed.names, text) != allowed.names.end();
+}
+
+/// The string itself, unless that would break the one line of a sentence.
+std::string describe_string(const std::string& text)
+{
+    constexpr std::size_t longest_shown = 60;
+    const bool fits = text.size() <= longest_shown && one_line(text) == text;
+    return fits ? fmt::format("the string '{}'", text) : fmt::format("a string of {} bytes", text.size());
+}
+
+/// Refuses a value where a choice of names was wanted, with the nearest of them.
+[[noreturn]] void refuse_name(const toml::node& node, const Key& key, const std::string& expected)
+{
+    const std::string given = node.value<std::string>().value_or("");
+    throw InputError(fmt::format("{}: '{}' must be {}, not {}{}", place_in(node.source()), key.name, expected,
+        describe_value(node), did_you_mean(given, key.allowed.names)));
+}
+
+} // namespace
+
+std::string place_in(const toml::source_region& source)
+{
+    const std::string path = source.path ? *source.path : std::string();
+    if (path.starts_with(override_prefix)) return path;
+    return fmt::format("{}:{}:{}", path, source.begin.line, source.begin.column);
+}
+
+std::string one_line(std::string_view text)
+{
+    std::string line(text);
+    std::ranges::replace_if(
+        line, [](unsigned char c) { return c < ' '; }, ' ');
+    return line;
+}
+
+std::string describe_error(const toml::parse_error& error)
+{
+    return fmt::format("not TOML: {}", one_line(error.description()));
+}
+
+std::string describe_value(const toml::node& node)
+{
+    if (const auto* text = node.as_string()) return describe_string(text->get());
+    if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
+    if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+    if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
+    if (const auto* array = node.as_array()) return fmt::format("an array of {}", array->size());
+    return node.is_table() ? "a table" : "a date or time";
+}
+
+void refuse_value(const toml::node& node, std::string_view key, std::string_view expected)
+{
+    throw InputError(
+        fmt::format("{}: '{}' must be {}, not {}", place_in(node.source()), key, expected, describe_value(node)));
+}
+
+void read_value(const toml::node& node, const Key& key, std::int64_t& field)
+{
+    const auto* number = node.as_integer();
+    if (!number || !is_allowed(static_cast<double>(number->get()), key.allowed))
+        refuse_value(node, key.name, expected_numbers("a whole number", key));
+    field = number->get();
+}
+
+void read_value(const toml::node& node, const Key& key, double& field)
+{
+    const auto number = allowed_number(node, key.allowed);
+    if (!number) refuse_value(node, key.name, expected_numbers("a number", key));
+    field = *number;
+}
+
+void read_value(const toml::node& node, const Key& key, std::string& field)
+{
+    const auto* text = node.as_string();
+    if (!text || !is_allowed(text->get(), key.allowed)) refuse_name(node, key, expected_names(key.allowed));
+    field = text->get();
+}
+
+void read_value(const toml::node& node, const Key& key, Vec3& field)
+{
+    const auto* array = node.as_array();
+    const std::string expected = expected_numbers("three numbers", key);
+    if (!array || array->size() != 3) refuse_value(node, key.name, expected);
+    for (int i = 0; i < 3; ++i) {
+        const toml::node& component = (*array)[static_cast<std::size_t>(i)];
+        const auto number = allowed_number(component, key.allowed);
+        if (!number) refuse_value(component, key.name, expected);
+        field[i] = *number;
+    }
+}
+
+void read_value(const toml::node& node, const Key& key, scene::NumberOrName& field)
+{
+    const std::string expected =
+        fmt::format("{}, or {}", expected_numbers("a number", key), enumerate_names(key.allowed.names, "or"));
+    if (const auto* text = node.as_string()) {
+        if (!is_allowed(text->get(), key.allowed)) refuse_name(node, key, expected);
+        field = {0.0, text->get()};
+    } else {
+        const auto number = allowed_number(node, key.allowed);
+        if (!number) refuse_value(node, key.name, expected);
+        field = {*number, ""};
+    }
+}
+
+void read_value(const toml::node& node, const Key& key, std::vector<std::string>& field)
+{
+    const std::string expected = key.allowed.names.empty()
+                                     ? "an array of strings"
+                                     : fmt::format("an array of {}", enumerate_names(key.allowed.names, "and"));
+    const auto* array = node.as_array();
+    if (!array) refuse_value(node, key.name, expected);
+    field.clear();
+    for (const toml::node& element : *array) {
+        const auto* text = element.as_string();
+        if (!text || !is_allowed(text->get(), key.allowed)) refuse_name(element, key, expected);
+        field.push_back(text->get());
+    }
+}
+
+} // namespace talus

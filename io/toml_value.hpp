@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "scenarios/scene.hpp"
+
+#include <toml++/toml.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace talus
+{
+
+/// What the scene's `describe` says of a key, as far as its value and the sentences about it go.
+struct Key {
+    std::string_view name;
+    const scene::Allowed& allowed;
+    std::string_view unit;
+};
+
+/// "file:line:column" of what was parsed, or "--set key=value" where it came from the command line.
+std::string place_in(const toml::source_region& source);
+
+/// What every value from the command line has as the name of its source.
+inline constexpr std::string_view override_prefix = "--set ";
+
+/// The text with every line break or other control character as a space, for a sentence on one line.
+std::string one_line(std::string_view text);
+
+/// What is wrong with the TOML, on one line.
+std::string describe_error(const toml::parse_error& error);
+
+/// A value as a sentence names it: "the string 'high'", "-1.5", "a table".
+std::string describe_value(const toml::node& node);
+
+/// Reads one value and checks that it is allowed.
+/// @throws InputError "place: 'key' must be …, not …"
+void read_value(const toml::node& node, const Key& key, std::int64_t& field);
+void read_value(const toml::node& node, const Key& key, double& field);
+void read_value(const toml::node& node, const Key& key, std::string& field);
+void read_value(const toml::node& node, const Key& key, Vec3& field);
+void read_value(const toml::node& node, const Key& key, scene::NumberOrName& field);
+void read_value(const toml::node& node, const Key& key, std::vector<std::string>& field);
+
+/// @throws InputError "place: 'key' must be `expected`, not …"
+[[noreturn]] void refuse_value(const toml::node& node, std::string_view key, std::string_view expected);
+
+} // namespace talus

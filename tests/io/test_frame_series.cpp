@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/frames.hpp"
+#include "io/input_error.hpp"
+#include "tests/io/scene_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace talus;
+using namespace talus::test;
+
+TEST_CASE("the .pvd lists every frame with its time and relative file", "[frames]")
+{
+    const SceneFolder folder;
+    State state;
+    FrameWriter frames(folder.path());
+    frames.write_particles(state);
+    state.time = 0.1;
+    frames.write_particles(state);
+    CHECK(read_file(folder.path() / "particles.pvd") ==
+          "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n"
+          "    <DataSet timestep=\"0\" part=\"0\" file=\"frames/particles_000000.vtp\"/>\n"
+          "    <DataSet timestep=\"0.1\" part=\"0\" file=\"frames/particles_000001.vtp\"/>\n"
+          "  </Collection>\n</VTKFile>\n");
+}
+
+TEST_CASE("a frame that the disk does not take is an output error and leaves no half file", "[frames]")
+{
+    const SceneFolder folder;
+    FrameWriter frames(folder.path());
+    std::filesystem::create_symlink("/dev/full", folder.path() / "frames/particles_000000.vtp.tmp");
+    CHECK(folder.without_folder(error_of<OutputError>([&] { frames.write_particles(State()); })) ==
+          "frames/particles_000000.vtp: cannot be written: No space left on device");
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "frames/particles_000000.vtp"));
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "particles.pvd"));
+    const auto file = folder.write("file", "");
+    CHECK(folder.without_folder(error_of<OutputError>([&] { FrameWriter writer(file); })) ==
+          "file/frames: cannot be made: Not a directory");
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/input_error.hpp"
+#include "io/scene_file.hpp"
+#include "tests/io/scene_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace talus;
+using namespace talus::test;
+
+namespace
+{
+
+std::string refusal_of(const std::string& scene)
+{
+    const SceneFolder folder;
+    const auto path = folder.write("scene.toml", scene);
+    return folder.without_folder(error_of<InputError>([&] { read_scene(path); }));
+}
+
+} // namespace
+
+TEST_CASE("an unknown key is refused with the nearest known one", "[scene_reader]")
+{
+    CHECK(refusal_of("[[contact]]\nbetween = ['a', 'a']\nfrictoin = 0.5\n") ==
+          "scene.toml:3:1: unknown key 'frictoin' in [[contact]]; did you mean 'friction'?");
+    CHECK(refusal_of("sed = 3\n") == "scene.toml:1:1: unknown key 'sed' in the scene; did you mean 'seed'?");
+    CHECK(refusal_of("[tme]\nstep = 1e-4\n") == "scene.toml:1:2: unknown key 'tme' in the scene; did you mean 'time'?");
+    CHECK(refusal_of("[materials.glass]\ndensty = 2500\n") ==
+          "scene.toml:2:1: unknown key 'densty' in [materials.glass]; did you mean 'density'?");
+}
+
+TEST_CASE("an unknown key that is like none is refused with all keys of its table", "[scene_reader]")
+{
+    CHECK(refusal_of("[output]\ncolour = 1\n") ==
+          "scene.toml:2:1: unknown key 'colour' in [output]; its keys are 'contact_interval' and 'contact_threshold'");
+}
+
+TEST_CASE("a value of the wrong type is refused with what is wanted", "[scene_reader]")
+{
+    CHECK(refusal_of("[time]\nduration = 'long'\n") ==
+          "scene.toml:2:12: 'duration' must be a number of at least 0 [s], not the string 'long'");
+    CHECK(refusal_of("seed = 1.5\n") == "scene.toml:1:8: 'seed' must be a whole number of at least 0, not 1.5");
+    CHECK(refusal_of("title = 3\n") == "scene.toml:1:9: 'title' must be a string, not 3");
+    CHECK(refusal_of("time = 3\n") == "scene.toml:1:8: 'time' must be a table, not 3");
+    CHECK(refusal_of("wall = true\n") == "scene.toml:1:8: 'wall' must be a list of tables [[wall]], not true");
+    CHECK(refusal_of("wall = [1]\n") == "scene.toml:1:9: 'wall' must be a list of tables [[wall]], not 1");
+    CHECK(refusal_of("materials = 1\n") ==
+          "scene.toml:1:13: 'materials' must be a table of tables [materials.NAME], not 1");
+    CHECK(refusal_of("materials.glass = 1979-05-27\n") ==
+          "scene.toml:1:19: 'glass' must be a table [materials.NAME], not a date or time");
+    CHECK(refusal_of("[[contact]]\nbetween = 'glass'\n") ==
+          "scene.toml:2:11: 'between' must be an array of strings, not the string 'glass'");
+    CHECK(refusal_of("[[contact]]\nbetween = ['glass', 2]\n") ==
+          "scene.toml:2:21: 'between' must be an array of strings, not 2");
+    CHECK(refusal_of("title = {}\n") == "scene.toml:1:9: 'title' must be a string, not a table");
+    CHECK(refusal_of("[time]\nduration = '" + std::string(70, 'x') + "'\n") ==
+          "scene.toml:2:12: 'duration' must be a number of at least 0 [s], not a string of 70 bytes");
+}
+
+TEST_CASE("a vector is three numbers", "[scene_reader]")
+{
+    const std::string wanted = "'gravity' must be three numbers [m/s2], not ";
+    CHECK(refusal_of("[world]\ngravity = 9.81\n") == "scene.toml:2:11: " + wanted + "9.81");
+    CHECK(refusal_of("[world]\ngravity = [0, -9.81]\n") == "scene.toml:2:11: " + wanted + "an array of 2");
+    CHECK(refusal_of("[world]\ngravity = [0, 'x', 0]\n") == "scene.toml:2:15: " + wanted + "the string 'x'");
+    CHECK(refusal_of("[world]\ngravity = [0, 0, inf]\n") == "scene.toml:2:18: " + wanted + "inf");
+    CHECK(refusal_of("[world]\nmin = [0, 0, nan]\n") ==
+          "scene.toml:2:14: 'min' must be three numbers [m] or inf, not nan");
+}
+
+TEST_CASE("a value out of range is refused with the range and its unit", "[scene_reader]")
+{
+    CHECK(refusal_of("[time]\nframe_interval = 0\n") ==
+          "scene.toml:2:18: 'frame_interval' must be a number above 0 [s] or inf, not 0");
+    CHECK(refusal_of("[time]\nduration = inf\n") ==
+          "scene.toml:2:12: 'duration' must be a number of at least 0 [s], not inf");
+    CHECK(refusal_of("[time]\nduration = nan\n") ==
+          "scene.toml:2:12: 'duration' must be a number of at least 0 [s], not nan");
+    CHECK(refusal_of("[solver]\nmax_sweeps = 0\n") ==
+          "scene.toml:2:14: 'max_sweeps' must be a whole number of at least 1 and at most 1000000, not 0");
+    CHECK(refusal_of("[[contact]]\nbetween = ['a', 'a']\nrestitution = 1.5\n") ==
+          "scene.toml:3:15: 'restitution' must be a number of at least 0 and at most 1, not 1.5");
+    CHECK(refusal_of("[[fill]]\nmaterial = 'a'\ncount = 1\ndiameter = 0\n") ==
+          "scene.toml:4:12: 'diameter' must be a number above 0 [m], not 0");
+    CHECK(refusal_of("[[fill]]\nmaterial = 'a'\ncount = 1\ndiameter = 'big'\n") ==
+          "scene.toml:4:12: 'diameter' must be a number [m] or a table with a distribution, not the string 'big'");
+}
+
+TEST_CASE("an unknown name of a choice is refused with the names and the nearest", "[scene_reader]")
+{
+    CHECK(refusal_of("[solver]\nstabilisation = 'projectd'\n") ==
+          "scene.toml:2:17: 'stabilisation' must be 'matched' or 'projected', not the string 'projectd'; did you mean "
+          "'projected'?");
+    CHECK(refusal_of("[solver]\ntolerance = 'standart'\n") ==
+          "scene.toml:2:13: 'tolerance' must be a number above 0 and at most 1, or 'draft', 'standard', 'fine' or "
+          "'reference', not the string 'standart'; did you mean 'standard'?");
+    CHECK(
+        refusal_of("[time]\nstep = -1\n") == "scene.toml:2:8: 'step' must be a number above 0 [s], or 'auto', not -1");
+    CHECK(refusal_of("[[wall]]\nname = 'w'\nmaterial = 'a'\nopen = ['z*']\n") ==
+          "scene.toml:4:9: 'open' must be an array of 'x-', 'x+', 'y-', 'y+', 'z-' and 'z+', not the string 'z*'; did "
+          "you mean 'z-'?");
+}
+
+TEST_CASE("a key that must be there is asked for by name and meaning", "[scene_reader]")
+{
+    CHECK(refusal_of("[[fill]]\ncount = 3\n") == "scene.toml:1:1: [[fill]] needs the key 'material' (of the spheres)");
+    CHECK(refusal_of("[[sensor]]\nname = 's'\n") == "scene.toml:1:1: [[sensor]] needs the key 'kind'");
+}
