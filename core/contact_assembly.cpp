@@ -151,7 +151,8 @@ ContactSurvey assemble_sphere_contacts(
             continue;
         }
         assembly.add({a, b, normal, distance - radii, u_n, u_n, distance / radii, ma.inverse_mass + mb.inverse_mass,
-                         ma.radius * mb.radius / radii, inverse_inertia(ma) + inverse_inertia(mb), k},
+                         ma.radius * mb.radius / radii,
+                         model.physics.rolling ? inverse_inertia(ma) + inverse_inertia(mb) : 0.0, k},
             model.materials.between(state.material[a], state.material[b]), 0.0);
     }
     assembly.finish(tile);

@@ -100,23 +100,20 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistri
     const Vec3 middle = bounds.center();
     // Half the region's size along each direction of the frame.
     const auto half = [&](const Vec3& e) { return 0.5 * bounds.extent().dot(e.cwiseAbs()); };
-    const double layer_height = a / std::sqrt(2.0);
-    const auto layers = static_cast<std::int64_t>(2.0 * half(frame.up) / layer_height) + 2;
+    const auto layers = static_cast<std::int64_t>(2.0 * half(frame.up) / a) + 2;
     const auto rows = static_cast<std::int64_t>(half(frame.e1) / a) + 2;
     const auto columns = static_cast<std::int64_t>(half(frame.e2) / a) + 2;
 
     std::vector<PackedSphere> spheres;
     for (std::int64_t k = 0; k < layers; ++k) {
-        // Square layers, each above the hollows of the one below.
-        const double shift = k % 2 == 0 ? 0.0 : 0.5 * a;
         for (std::int64_t i = -rows; i <= rows; ++i)
             for (std::int64_t j = -columns; j <= columns; ++j) {
                 if (static_cast<std::int64_t>(spheres.size()) == count) return spheres;
                 const double radius = 0.5 * diameter.draw(random);
                 const Vec3 jitter = (0.5 * a - radius) * random_in_ball(random);
-                const Vec3 point = middle + (static_cast<double>(i) * a + shift) * frame.e1 +
-                                   (static_cast<double>(j) * a + shift) * frame.e2 +
-                                   (0.5 * a - half(frame.up) + static_cast<double>(k) * layer_height) * frame.up;
+                const Vec3 point = middle + static_cast<double>(i) * a * frame.e1 +
+                                   static_cast<double>(j) * a * frame.e2 +
+                                   (0.5 * a - half(frame.up) + static_cast<double>(k) * a) * frame.up;
                 const PackedSphere sphere{point + jitter, radius};
                 if (region.contains(sphere.center, radius) && !touches_wall(model, sphere)) spheres.push_back(sphere);
             }

@@ -17,9 +17,10 @@ struct PackedSphere {
 };
 
 /// A jittered lattice, filled layer by layer from below (against gravity) until `count` spheres are placed or the
-/// region is full: a face-centred lattice with `spacing` times the largest diameter between its points, each sphere
-/// moved at random within the room that the spacing leaves, so that nothing overlaps and no layer stays a crystal.
-/// Places where a sphere would touch a wall that stands at time 0 are left out.
+/// region is full: a cubic lattice with `spacing` times the largest diameter between its points, each sphere moved at
+/// random within the room that the spacing leaves, so that nothing overlaps. Cubic, and not the dense lattices, because
+/// it collapses when it falls: a close-packed one stays a crystal. Places where a sphere would touch a wall that stands
+/// at time 0 are left out.
 std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistribution& diameter, std::int64_t count,
     double spacing, const Model& model, Random& random);
 

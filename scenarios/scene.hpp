@@ -3,6 +3,7 @@
 
 #include "core/vector.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -19,7 +20,8 @@ namespace talus::scene
 {
 
 /// What a value may be. Numbers lie in [min, max], where `open` leaves min itself out, and are finite unless
-/// `infinite`; a string is one of `names` unless that is empty.
+/// `infinite`; a string is one of `names` unless that is empty. A key may belong to some kinds of its table only: those
+/// that have one of the names in `of` as the value of the table's deciding key.
 struct Allowed {
     double min = -infinity;
     double max = infinity;
@@ -27,6 +29,11 @@ struct Allowed {
     bool infinite = false;
     std::vector<std::string_view> names = {};
     bool required = false;
+    bool decides = false;
+    std::vector<std::string_view> of = {};
+
+    /// Whether a table has the key when its deciding key has this value.
+    bool belongs_to(std::string_view kind) const { return of.empty() || std::ranges::find(of, kind) != of.end(); }
 };
 
 inline Allowed any()
@@ -57,6 +64,16 @@ inline Allowed or_infinite(Allowed allowed)
 inline Allowed required(Allowed allowed)
 {
     allowed.required = true;
+    return allowed;
+}
+inline Allowed deciding(Allowed allowed)
+{
+    allowed.decides = true;
+    return allowed;
+}
+inline Allowed only_for(std::vector<std::string_view> kinds, Allowed allowed)
+{
+    allowed.of = std::move(kinds);
     return allowed;
 }
 
@@ -164,13 +181,13 @@ struct RegionTable {
 
     static void describe(auto& self, auto&& key)
     {
-        key("shape", self.shape, one_of({"box", "cylinder"}), "", "");
-        key("min", self.min, any(), "m", "box: lower corner");
-        key("max", self.max, any(), "m", "box: upper corner");
-        key("base", self.base, any(), "m", "cylinder: centre of the first end");
-        key("axis", self.axis, any(), "", "cylinder: direction from the first end to the second");
-        key("radius", self.radius, at_least(0.0), "m", "cylinder");
-        key("height", self.height, at_least(0.0), "m", "cylinder");
+        key("shape", self.shape, deciding(one_of({"box", "cylinder"})), "", "");
+        key("min", self.min, only_for({"box"}, any()), "m", "lower corner");
+        key("max", self.max, required(only_for({"box"}, any())), "m", "upper corner");
+        key("base", self.base, only_for({"cylinder"}, any()), "m", "centre of the first end");
+        key("axis", self.axis, only_for({"cylinder"}, any()), "", "direction from the first end to the second");
+        key("radius", self.radius, required(only_for({"cylinder"}, at_least(0.0))), "m", "of the cylinder");
+        key("height", self.height, required(only_for({"cylinder"}, at_least(0.0))), "m", "distance of the ends");
     }
 };
 
@@ -182,10 +199,10 @@ struct DiameterTable {
 
     static void describe(auto& self, auto&& key)
     {
-        key("distribution", self.distribution, one_of({"constant", "uniform"}), "", "of diameters by number");
-        key("value", self.value, at_least(0.0), "m", "constant: the diameter");
-        key("min", self.min, at_least(0.0), "m", "uniform: the smallest");
-        key("max", self.max, at_least(0.0), "m", "uniform: the largest");
+        key("distribution", self.distribution, deciding(one_of({"constant", "uniform"})), "", "of diameters by number");
+        key("value", self.value, required(only_for({"constant"}, at_least(0.0))), "m", "the diameter");
+        key("min", self.min, required(only_for({"uniform"}, at_least(0.0))), "m", "the smallest");
+        key("max", self.max, required(only_for({"uniform"}, at_least(0.0))), "m", "the largest");
     }
 };
 
@@ -195,7 +212,7 @@ struct FillTable {
     DiameterTable diameter;
     RegionTable region;
     std::string arrangement = "lattice";
-    double spacing = 1.02;
+    double spacing = 1.1;
     Vec3 velocity = Vec3::Zero();
     Vec3 angular_velocity = Vec3::Zero();
 
@@ -205,9 +222,10 @@ struct FillTable {
         key("count", self.count, required(between(0, 100000000)), "", "how many spheres are there at the start");
         key("diameter", self.diameter, required(any()), "m", "a number, or a table with a distribution");
         key("region", self.region, required(any()), "", "where; spheres lie wholly inside");
-        key("arrangement", self.arrangement, one_of({"lattice", "random"}), "",
+        key("arrangement", self.arrangement, deciding(one_of({"lattice", "random"})), "",
             "lattice: a jittered lattice, filled from below; random: anywhere without overlap (loose fills only)");
-        key("spacing", self.spacing, between(1.0, 100.0), "", "lattice: distance of its points / largest diameter");
+        key("spacing", self.spacing, only_for({"lattice"}, between(1.0, 100.0)), "",
+            "distance of the lattice's points / largest diameter");
         key("velocity", self.velocity, any(), "m/s", "of the spheres at the start");
         key("angular_velocity", self.angular_velocity, any(), "rad/s", "of the spheres at the start");
     }
@@ -270,27 +288,32 @@ struct WallTable {
     static void describe(auto& self, auto&& key)
     {
         key("name", self.name, required(any()), "", "for --set, reports and the wall frames");
-        key("shape", self.shape, one_of({"plane", "box", "cylinder", "cone", "disk", "mesh"}), "",
+        key("shape", self.shape, deciding(one_of({"plane", "box", "cylinder", "cone", "disk", "mesh"})), "",
             "plane: a half-space; the others are thin, with two sides");
         key("material", self.material, required(any()), "", "");
         key("appear_at", self.appear_at, at_least(0.0), "s", "when the wall is put there");
         key("remove_at", self.remove_at, or_infinite(at_least(0.0)), "s", "when the wall is taken away; inf: never");
-        key("point", self.point, any(), "m", "plane: a point on it");
-        key("normal", self.normal, any(), "", "plane: into the free side; disk: at right angles to the plate");
-        key("min", self.min, any(), "m", "box: lower corner");
-        key("max", self.max, any(), "m", "box: upper corner");
-        key("open", self.open, one_of({"x-", "x+", "y-", "y+", "z-", "z+"}), "", "box: the faces left out");
-        key("base", self.base, any(), "m", "cylinder, cone: centre of the first end");
-        key("axis", self.axis, any(), "", "cylinder, cone: direction from the first end to the second");
-        key("height", self.height, at_least(0.0), "m", "cylinder, cone: distance of the ends");
-        key("radius", self.radius, at_least(0.0), "m", "cylinder, disk");
-        key("base_radius", self.base_radius, at_least(0.0), "m", "cone: at the first end");
-        key("top_radius", self.top_radius, at_least(0.0), "m", "cone: at the second end");
-        key("center", self.center, any(), "m", "disk");
-        key("hole_radius", self.hole_radius, at_least(0.0), "m", "disk: of the round hole in the middle; 0: none");
-        key("mesh", self.mesh, any(), "", "mesh: an STL file, beside the scene file");
-        key("scale", self.scale, above(0.0), "", "mesh: the file's numbers times this are metres");
-        key("translate", self.translate, any(), "m", "mesh: moved by this after scaling");
+        key("point", self.point, only_for({"plane"}, any()), "m", "a point on it");
+        key("normal", self.normal, only_for({"plane", "disk"}, any()), "",
+            "of a plane: into the free side; of a disk: at right angles to the plate");
+        key("min", self.min, only_for({"box"}, any()), "m", "lower corner");
+        key("max", self.max, required(only_for({"box"}, any())), "m", "upper corner");
+        key("open", self.open, only_for({"box"}, one_of({"x-", "x+", "y-", "y+", "z-", "z+"})), "",
+            "the faces left out");
+        key("base", self.base, only_for({"cylinder", "cone"}, any()), "m", "centre of the first end");
+        key("axis", self.axis, only_for({"cylinder", "cone"}, any()), "", "direction from the first end to the second");
+        key("height", self.height, required(only_for({"cylinder", "cone"}, at_least(0.0))), "m",
+            "distance of the ends");
+        key("radius", self.radius, required(only_for({"cylinder", "disk"}, at_least(0.0))), "m",
+            "of the tube or plate");
+        key("base_radius", self.base_radius, only_for({"cone"}, at_least(0.0)), "m", "at the first end");
+        key("top_radius", self.top_radius, only_for({"cone"}, at_least(0.0)), "m", "at the second end");
+        key("center", self.center, only_for({"disk"}, any()), "m", "of the plate");
+        key("hole_radius", self.hole_radius, only_for({"disk"}, at_least(0.0)), "m",
+            "of the round hole in the middle; 0: none");
+        key("mesh", self.mesh, required(only_for({"mesh"}, any())), "", "an STL file, beside the scene file");
+        key("scale", self.scale, only_for({"mesh"}, above(0.0)), "", "the file's numbers times this are metres");
+        key("translate", self.translate, only_for({"mesh"}, any()), "m", "moved by this after scaling");
     }
 };
 
@@ -321,15 +344,16 @@ struct SensorTable {
     static void describe(auto& self, auto&& key)
     {
         key("name", self.name, required(any()), "", "for reports");
-        key("kind", self.kind, required(one_of({"mass_flow", "repose"})), "", "");
-        key("point", self.point, any(), "m", "mass_flow: a point on the plane");
-        key("normal", self.normal, any(), "", "mass_flow: direction of the flow");
-        key("from", self.from, at_least(0.0), "s", "mass_flow: start of the steady part");
-        key("to", self.to, or_infinite(at_least(0.0)), "s", "mass_flow: end of the steady part");
-        key("base", self.base, any(), "m", "repose: centre of the heap's floor");
-        key("inner_radius", self.inner_radius, at_least(0.0), "m", "repose: where the fitted line begins");
-        key("outer_radius", self.outer_radius, at_least(0.0), "m",
-            "repose: where it ends; 0: fit between 20 and 80 % of the height");
+        key("kind", self.kind, required(deciding(one_of({"mass_flow", "repose"}))), "", "");
+        key("point", self.point, only_for({"mass_flow"}, any()), "m", "a point on the plane");
+        key("normal", self.normal, only_for({"mass_flow"}, any()), "", "direction of the flow");
+        key("from", self.from, only_for({"mass_flow"}, at_least(0.0)), "s", "start of the steady part");
+        key("to", self.to, only_for({"mass_flow"}, or_infinite(at_least(0.0))), "s", "end of the steady part");
+        key("base", self.base, only_for({"repose"}, any()), "m", "centre of the heap's floor");
+        key("inner_radius", self.inner_radius, only_for({"repose"}, at_least(0.0)), "m",
+            "where the fitted line begins");
+        key("outer_radius", self.outer_radius, only_for({"repose"}, at_least(0.0)), "m",
+            "where it ends; 0: fit between 20 and 80 % of the height");
     }
 };
 

@@ -48,7 +48,11 @@ double fall_height(const Simulation& simulation)
         if (const auto* plane = std::get_if<Plane>(&wall.shape); plane && plane->normal.dot(up) > 0.99)
             lowest = std::min(lowest, plane->point.dot(up));
     }
-    for (const auto& outlet : model.outlets) span(outlet.bounds());
+    // A sphere is free to fall until it enters an outlet, from above.
+    for (const auto& outlet : model.outlets) {
+        const Box box = outlet.bounds();
+        lowest = std::min(lowest, box.center().dot(up) + 0.5 * box.extent().dot(up.cwiseAbs()));
+    }
     return std::max(0.0, highest - lowest);
 }
 
