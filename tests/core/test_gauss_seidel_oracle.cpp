@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/candidate_search.hpp"
+#include "core/contact_assembly.hpp"
+#include "core/gauss_seidel.hpp"
+#include "core/region.hpp"
+#include "tests/support/contacts.hpp"
+#include "tests/support/dense_gauss_seidel.hpp"
+#include "tests/support/world.hpp"
+
+namespace talus::test
+{
+namespace
+{
+
+/// A small heap in a box in the middle of its collapse: sizes 1 : 3, resting and open contacts with spheres and walls,
+/// impulses carried from the steps before.
+World collapsing_heap(const ContactLaw& law, const SolverSettings& solver)
+{
+    World world = make_world(law, solver, 5e-4);
+    const double edge = 8 * standard_radius;
+    world.add_wall(box_panels({Vec3::Zero(), Vec3(edge, edge, 8 * edge)}, {"z+"}));
+    Random random(11);
+    const auto anywhere = [&](double size) {
+        const double x = uniform(random);
+        const double y = uniform(random);
+        return Vec3(size * x, size * y, size * uniform(random));
+    };
+    for (int k = 0; k < 54; ++k) {
+        const Vec3 place(k % 3 + 0.35, k / 3 % 3 + 0.35, k / 9 + 0.35);
+        const double radius = standard_radius * (0.4 + 0.8 * uniform(random));
+        world.add_sphere(edge / 3 * place + anywhere(0.3 * edge / 3), anywhere(0.5), anywhere(100.0), radius);
+    }
+    world.step(240);
+    world.add_sphere(
+        Vec3(standard_radius + 1e-4, 0.5 * edge, 4 * edge), Vec3(-2, 1, 0)); // hits a wall in the next step
+    return world;
+}
+
+Vec3 rolling_impulse(const ContactArrays& arrays, std::size_t k)
+{
+    return arrays.rolling.empty() ? Vec3::Zero().eval() : arrays.rolling[k].impulse;
+}
+
+/// What the assembled contacts are in the words of the note; lever arms and masses the oracle works out by itself.
+std::vector<DenseContact> dense_contacts(const ContactNetwork& network)
+{
+    std::vector<DenseContact> contacts;
+    for_each_contact(network, [&](const ContactArrays& arrays, std::size_t k, bool with_wall) {
+        const Contact& contact = arrays.contact[k];
+        DenseContact dense;
+        dense.a = static_cast<std::size_t>(contact.a);
+        dense.b = with_wall ? 0 : static_cast<std::size_t>(contact.b);
+        dense.with_wall = with_wall;
+        dense.normal = contact.normal;
+        dense.target = contact.target;
+        dense.compliance = arrays.terms[k].compliance;
+        dense.friction = arrays.terms[k].friction;
+        dense.rolling_reach = arrays.rolling.empty() ? 0.0 : arrays.rolling[k].reach;
+        dense.impulse = contact.impulse;
+        dense.rolling_impulse = rolling_impulse(arrays, k);
+        contacts.push_back(dense);
+    });
+    return contacts;
+}
+
+bool has_kind(const ContactNetwork& network, ContactKind kind)
+{
+    bool found = false;
+    for_each_contact(network,
+        [&](const ContactArrays& arrays, std::size_t k, bool) { found = found || arrays.geometry[k].kind == kind; });
+    return found;
+}
+
+/// Largest differences of kernel and oracle, relative to the largest impulse and speed.
+struct Difference {
+    double impulse = 0.0, rolling_impulse = 0.0, velocity = 0.0, spin = 0.0;
+};
+
+Difference compare(const ContactNetwork& network, const State& state, const DenseProblem& dense)
+{
+    Difference worst;
+    std::size_t k = 0;
+    for_each_contact(network, [&](const ContactArrays& arrays, std::size_t slot, bool) {
+        worst.impulse = std::max(worst.impulse, (arrays.contact[slot].impulse - dense.impulse_in_space(k)).norm());
+        worst.rolling_impulse =
+            std::max(worst.rolling_impulse, (rolling_impulse(arrays, slot) - dense.rolling_impulse_in_space(k)).norm());
+        ++k;
+    });
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        const auto own = dense.velocity.segment<6>(6 * static_cast<Eigen::Index>(i));
+        worst.velocity = std::max(worst.velocity, (state.motion[i].velocity - own.head<3>()).norm());
+        worst.spin = std::max(worst.spin, (state.motion[i].rim_velocity - state.radius(i) * own.tail<3>()).norm());
+        fastest = std::max({fastest, own.head<3>().norm(), state.radius(i) * own.tail<3>().norm()});
+    }
+    const double largest = dense.impulse.lpNorm<Eigen::Infinity>();
+    worst.impulse /= largest;
+    worst.rolling_impulse /= largest * standard_radius;
+    worst.velocity /= fastest;
+    worst.spin /= fastest;
+    return worst;
+}
+
+ContactLaw contact_law(double friction, double rolling_friction, double restitution)
+{
+    ContactLaw law;
+    law.friction = friction;
+    law.rolling_friction = rolling_friction;
+    law.restitution = restitution;
+    return law;
+}
+
+} // namespace
+
+TEST_CASE(
+    "the sphere kernel gives the impulses and velocities of a plain dense Algorithm 3.1", "[gauss_seidel][oracle]")
+{
+    // Same contacts, same order, same number of sweeps: two ways of writing one iteration differ by round-off, which a
+    // few sweeps of some dozen contacts leave far below 1e-10.
+    const auto law =
+        GENERATE(contact_law(0, 0, 0), contact_law(0.4, 0, 0), contact_law(0.4, 0, 0.5), contact_law(0.6, 0.1, 0.3));
+    const auto stabilisation = GENERATE(Stabilisation::matched, Stabilisation::projected);
+    const int sweeps = GENERATE(1, 2, 9);
+    World world = collapsing_heap(law, production_settings(stabilisation));
+
+    // The beginning of the next step, as `advance` does it.
+    const Model& model = world.model;
+    update_candidates(world.contacts, world.state, model);
+    assemble_contacts(world.contacts, world.state, model);
+    for (Motion& motion : world.state.motion) motion.velocity += model.time_step * model.gravity;
+    const auto contacts = dense_contacts(world.contacts);
+    REQUIRE(contacts.size() > 25);
+    REQUIRE(has_kind(world.contacts, ContactKind::open));
+    REQUIRE(has_kind(world.contacts, ContactKind::resting));
+    REQUIRE(has_kind(world.contacts, ContactKind::impact) == model.physics.restitution);
+
+    auto dense = make_dense_problem(world.state, contacts);
+    const Eigen::VectorXd warm_impulse = dense.impulse;
+    REQUIRE(warm_impulse.norm() > 0);
+    warm_start(dense);
+    for (int k = 0; k < sweeps; ++k) sweep(dense);
+
+    SolverSettings solver = model.solver;
+    solver.min_sweeps = solver.max_sweeps = sweeps;
+    solver.tolerance = 0.0;
+    const double warm_size = apply_warm_start(world.contacts, world.state.motion, model.physics);
+    const auto report = solve_contacts(world.contacts, world.state.motion, model.physics, solver, warm_size);
+
+    const auto difference = compare(world.contacts, world.state, dense);
+    CHECK(difference.impulse < 1e-10);
+    CHECK(difference.rolling_impulse < 1e-10);
+    CHECK(difference.velocity < 1e-10);
+    CHECK(difference.spin < 1e-10);
+    CHECK(report.sweeps == sweeps);
+    CHECK(report.residual == within(1e-9, residual(dense, warm_impulse)));
+}
+
+} // namespace talus::test

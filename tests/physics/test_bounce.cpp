@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/world.hpp"
+
+#include <cmath>
+
+namespace talus::test
+{
+namespace
+{
+
+ContactLaw restitution(double e)
+{
+    ContactLaw law;
+    law.restitution = e;
+    return law;
+}
+
+/// A sphere dropped from rest, its lowest point `height` above the floor.
+World dropped_sphere(double height, double e, const SolverSettings& solver, double h)
+{
+    World world = sphere_on_plane(restitution(e), solver, h);
+    world.state.position[0] += height * Vec3::UnitZ();
+    return world;
+}
+
+bool moves_up(const World& world)
+{
+    return world.velocity().z() > 0;
+}
+bool moves_down(const World& world)
+{
+    return world.velocity().z() < 0;
+}
+
+} // namespace
+
+TEST_CASE("a sphere thrown at a wall comes back with e times its speed", "[restitution]")
+{
+    // Chung & Ooi (2011) test 3: r = 2.5 mm, 3.9 m/s, no gravity. Newton's law takes u_n⁻ from the velocity before the
+    // step, and one frictionless contact is solved in one sweep: nothing but round-off is left.
+    const double e = GENERATE(0.2, 0.4, 0.6, 0.8, 1.0);
+    const double speed = 3.9;
+    World world = sphere_on_plane(
+        restitution(e), GENERATE(rigid_settings(), matched_settings()), 1e-5, Vec3::Zero(), Vec3::Zero(), 0.0025);
+    world.model.gravity = Vec3::Zero();
+    world.state.position[0].z() += 1e-3;
+    world.state.motion[0].velocity = Vec3(0, 0, -speed);
+    advance_until(world, moves_up, 100);
+    CHECK(world.velocity().z() == within(1e-14, e * speed));
+    world.step(100);
+    CHECK(world.velocity().z() == within(1e-14, e * speed));
+}
+
+TEST_CASE("a rigid impact without restitution is perfectly plastic", "[restitution]")
+{
+    // An open gap is first closed (u_n = −g/h), then u_n ≥ 0 holds: the sphere stops on the surface and stays there.
+    World world = dropped_sphere(1e-3, 0.0, rigid_settings(), 1e-4);
+    world.model.gravity = Vec3::Zero();
+    world.state.motion[0].velocity = Vec3(0, 0, -1);
+    world.step(100);
+    CHECK(world.velocity().norm() < 1e-15);
+    CHECK(world.position().z() == within(1e-14, standard_radius));
+}
+
+TEST_CASE("each peak of a bouncing sphere is e² times as high as the one before", "[restitution]")
+{
+    // Dropped from H the k-th peak is e^{2k} H. The turn happens up to V h above the floor and V is wrong by up to g h,
+    // which moves the first peak by at most 2 V h (V² = 2 g H) and the later ones by less.
+    const double height = 1.0;
+    const double e = 0.5;
+    const double h = GENERATE(1e-3, 1e-4);
+    World world = dropped_sphere(height, e, GENERATE(rigid_settings(), matched_settings()), h);
+    const double error = 2.0 * std::sqrt(2.0 * standard_gravity * height) * h;
+    double peak = height;
+    for (int k = 1; k <= 3; ++k) {
+        advance_until(world, moves_up, 20000);
+        advance_until(world, moves_down, 20000);
+        peak *= e * e;
+        CHECK(world.position().z() - standard_radius == Approx(peak).margin(error));
+    }
+}
+
+TEST_CASE("a sphere rebounds under gravity with e times the speed it had before the step", "[restitution]")
+{
+    const double e = GENERATE(0.3, 0.7, 0.95);
+    World world = dropped_sphere(0.2, e, GENERATE(rigid_settings(), matched_settings()), 1e-3);
+    double before = 0.0;
+    while (!moves_up(world)) {
+        before = world.velocity().z();
+        world.step();
+        REQUIRE(world.state.steps < 1000);
+    }
+    CHECK(world.velocity().z() == within(1e-14, -e * before)); // one contact, one sweep: round-off
+}
+
+TEST_CASE("a bouncing sphere comes to rest after finitely many bounces and lies still", "[restitution][statics]")
+{
+    // Speeds fall as eᵏ V until they pass 3 g h, below which nothing rebounds: k bounces with eᵏ V ≈ 3 g h, one more or
+    // less for the instant of impact. The law's infinite series ends at t = √(2H/g) (1 + e)/(1 − e) = 1.3546 s.
+    const double height = 1.0;
+    const double e = 0.5;
+    const double h = 1e-3;
+    const double speed = std::sqrt(2.0 * standard_gravity * height);
+    const double expected_bounces = std::log(3.0 * standard_gravity * h / speed) / std::log(e);
+    const auto stabilisation = GENERATE(Stabilisation::projected, Stabilisation::matched);
+    World world = dropped_sphere(height, e, production_settings(stabilisation), h);
+
+    int bounces = 0;
+    double path = 0.0;
+    bool was_falling = false;
+    while (world.state.time < 1.5) {
+        const double z = world.position().z();
+        world.step();
+        path += std::abs(world.position().z() - z);
+        // What `matched` does while it settles into its overlap is slower than g h and no bounce.
+        bounces += was_falling && world.velocity().z() > standard_gravity * h;
+        was_falling = moves_down(world);
+    }
+    CHECK(bounces == Approx(expected_bounces).margin(1.0));
+    CHECK(path == Approx(height * (1 + e * e) / (1 - e * e)).margin(2.0 * speed * h));
+
+    const double z = world.position().z();
+    world.step(1000);
+    CHECK(world.velocity().norm() < 1e-12); // no jitter: 1e-10 of g h
+    CHECK(world.position().z() == within(1e-12, z));
+}
+
+} // namespace talus::test

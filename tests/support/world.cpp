@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/world.hpp"
+
+#include "tests/support/contacts.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace talus::test
+{
+namespace
+{
+
+constexpr int sphere_material = 0;
+constexpr int wall_material = 1;
+
+bool any_law(const Materials& materials, double ContactLaw::*coefficient)
+{
+    return std::any_of(
+        materials.laws.begin(), materials.laws.end(), [=](const auto& law) { return law.*coefficient > 0; });
+}
+
+ContactForce contact_force(const Contact& contact, const ContactTerms& terms, const ContactGeometry& geometry, double h)
+{
+    ContactForce force;
+    force.normal = contact.normal;
+    force.normal_force = contact.impulse.dot(contact.normal) / h;
+    force.tangent_force = contact.impulse / h - force.normal_force * contact.normal;
+    force.friction = terms.friction;
+    force.gap = geometry.gap;
+    return force;
+}
+
+} // namespace
+
+std::int64_t World::add_sphere(
+    const Vec3& position, const Vec3& velocity, const Vec3& angular_velocity, double radius, double density)
+{
+    talus::add_sphere(state, position, radius, density, sphere_material, velocity, angular_velocity);
+    const double diameter = 2.0 * radius;
+    const auto others = static_cast<double>(state.count() - 1);
+    model.mean_diameter = (model.mean_diameter * others + diameter) / (others + 1.0);
+    model.min_diameter = others > 0 ? std::min(model.min_diameter, diameter) : diameter;
+    model.max_diameter = std::max(model.max_diameter, diameter);
+    return state.id.back();
+}
+
+void World::add_wall(Shape shape)
+{
+    model.walls.push_back({"wall " + std::to_string(model.walls.size()), std::move(shape), wall_material});
+}
+
+void World::step(int count)
+{
+    for (int i = 0; i < count; ++i) report = advance(state, contacts, model);
+}
+
+std::size_t World::index_of(std::int64_t id) const
+{
+    const auto found = std::find(state.id.begin(), state.id.end(), id);
+    if (found == state.id.end()) throw std::out_of_range("no sphere with id " + std::to_string(id));
+    return static_cast<std::size_t>(found - state.id.begin());
+}
+
+std::vector<ContactForce> World::contact_forces() const
+{
+    std::vector<ContactForce> forces;
+    for_each_contact(contacts, [&](const ContactArrays& arrays, std::size_t k, bool with_wall) {
+        const Contact& contact = arrays.contact[k];
+        ContactForce force = contact_force(contact, arrays.terms[k], arrays.geometry[k], model.time_step);
+        force.with_wall = with_wall;
+        force.a = state.id[static_cast<std::size_t>(contact.a)];
+        force.b = with_wall ? contact.b : state.id[static_cast<std::size_t>(contact.b)];
+        forces.push_back(force);
+    });
+    return forces;
+}
+
+SolverSettings rigid_settings(double tolerance, int max_sweeps)
+{
+    SolverSettings solver = production_settings(Stabilisation::projected);
+    solver.tolerance = tolerance;
+    solver.max_sweeps = max_sweeps;
+    return solver;
+}
+
+SolverSettings matched_settings(double tolerance, int max_sweeps)
+{
+    SolverSettings solver = production_settings(Stabilisation::matched);
+    solver.tolerance = tolerance;
+    solver.max_sweeps = max_sweeps;
+    return solver;
+}
+
+SolverSettings production_settings(Stabilisation stabilisation)
+{
+    SolverSettings solver;
+    solver.stabilisation = stabilisation;
+    solver.min_sweeps = stabilisation == Stabilisation::projected ? 3 : 2;
+    return solver;
+}
+
+World make_world(const ContactLaw& law, const SolverSettings& solver, double time_step)
+{
+    return make_world(law, law, solver, time_step);
+}
+
+World make_world(
+    const ContactLaw& between_spheres, const ContactLaw& at_walls, const SolverSettings& solver, double time_step)
+{
+    World world;
+    Model& model = world.model;
+    model.gravity = -standard_gravity * Vec3::UnitZ();
+    model.time_step = time_step;
+    model.solver = solver;
+    model.world = {Vec3::Constant(-1e6), Vec3::Constant(1e6)};
+    model.materials.list = {{"sphere", standard_density}, {"wall", standard_density}};
+    model.materials.laws = {between_spheres, at_walls, at_walls, at_walls};
+    model.physics.rolling = any_law(model.materials, &ContactLaw::rolling_friction);
+    model.physics.friction = model.physics.rolling || any_law(model.materials, &ContactLaw::friction);
+    model.physics.restitution = any_law(model.materials, &ContactLaw::restitution);
+    return world;
+}
+
+World sphere_on_plane(const ContactLaw& law, const SolverSettings& solver, double time_step, const Vec3& velocity,
+    const Vec3& angular_velocity, double radius)
+{
+    World world = make_world(law, solver, time_step);
+    world.add_plane(Vec3::Zero(), Vec3::UnitZ());
+    world.add_sphere(radius * Vec3::UnitZ(), velocity, angular_velocity, radius);
+    return world;
+}
+
+int advance_until(World& world, const std::function<bool(const World&)>& condition, int max_steps)
+{
+    for (int steps = 0; steps <= max_steps; ++steps) {
+        if (condition(world)) return steps;
+        world.step();
+    }
+    throw std::runtime_error("the condition did not come true in " + std::to_string(max_steps) + " steps");
+}
+
+Vec3 slip(const World& world, std::int64_t id, const Vec3& normal)
+{
+    const Vec3 velocity = world.velocity(id) - world.radius(id) * world.angular_velocity(id).cross(normal);
+    return velocity - velocity.dot(normal) * normal;
+}
+
+} // namespace talus::test

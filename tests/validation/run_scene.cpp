@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run_scene.hpp"
+
+#include "io/scene_file.hpp"
+#include "scenarios/build_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <stdexcept>
+
+namespace talus::test
+{
+
+Simulation open_scene(const std::string& name, const std::vector<std::string>& overrides)
+{
+    const std::filesystem::path root = TALUS_SOURCE_DIR;
+    auto file = root / "tests/validation/scenes" / (name + ".toml");
+    if (!std::filesystem::exists(file)) file = root / "scenarios" / (name + ".toml");
+    return build_scene(read_scene(file, overrides).scene);
+}
+
+void run_until(Simulation& simulation, double time)
+{
+    constexpr double sample_interval = 0.005;
+    double next_sample = simulation.state.time;
+    while (simulation.state.time < time) {
+        const auto report = step(simulation);
+        REQUIRE(report.incidents.empty());
+        if (simulation.state.time < next_sample) continue;
+        for (auto& sensor : simulation.sensors) sensor->sample(simulation.state, simulation.model);
+        next_sample += sample_interval;
+    }
+}
+
+Measurement result(const Simulation& simulation, const std::string& sensor, const std::string& quantity)
+{
+    for (const auto& s : simulation.sensors)
+        for (const auto& m : s->results())
+            if (s->name == sensor && m.name == quantity) return m;
+    throw std::logic_error("no result " + sensor + " " + quantity);
+}
+
+} // namespace talus::test

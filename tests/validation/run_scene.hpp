@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "scenarios/simulation.hpp"
+
+#include <string>
+#include <vector>
+
+namespace talus::test
+{
+
+/// The scene of this name in tests/validation/scenes, or else in scenarios/, with overrides as for `talus run --set`.
+Simulation open_scene(const std::string& name, const std::vector<std::string>& overrides = {});
+
+/// Runs until the given time, sampling the sensors every 5 ms. Requires that nothing escapes.
+void run_until(Simulation& simulation, double time);
+
+/// A result of a sensor by the sensor's and the quantity's name.
+Measurement result(const Simulation& simulation, const std::string& sensor, const std::string& quantity);
+
+} // namespace talus::test

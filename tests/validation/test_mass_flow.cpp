@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Discharge through an orifice, against peers with smooth contacts and against Beverloo's law.
+#include "core/statistics.hpp"
+#include "run_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace talus;
+using namespace talus::test;
+
+namespace
+{
+
+void require_closed_ledger(const Simulation& s)
+{
+    CHECK(s.state.next_id == static_cast<std::int64_t>(s.state.count()) + s.outflow.count);
+}
+
+} // namespace
+
+TEST_CASE("a flat silo of 2000 spheres discharges as fast as that of the peers", "[mass_flow]")
+{
+    // LAMMPS and LIGGGHTS at two stiffnesses: 1231 to 1282 spheres a second, 0.1 to 0.4 s after the opening. The bed is
+    // shallow and the window short, hence 7 %.
+    auto s = open_scene("flat_silo", {"fill.0.count=2000", "sensor.outlet.from=0.9", "sensor.outlet.to=1.2"});
+    run_until(s, 1.2);
+    const auto flow = result(s, "outlet", "sphere_flow");
+    WARN("2000 spheres: " << flow.value << " +- " << flow.spread << " spheres/s");
+    CHECK(flow.value == Approx(1250.0).epsilon(0.07));
+    require_closed_ledger(s);
+}
+
+TEST_CASE("a flat silo of 10 000 spheres discharges 1290 spheres a second", "[mass_flow][slow]")
+{
+    auto s = open_scene("flat_silo");
+    run_until(s, 2.8);
+    const auto flow = result(s, "outlet", "sphere_flow");
+    WARN("10 000 spheres: " << flow.value << " +- " << flow.spread << " spheres/s");
+    CHECK(flow.value == Approx(1290.0).epsilon(0.07));
+    require_closed_ledger(s);
+}
+
+TEST_CASE("the discharge grows with the 5/2 power of the outlet less 1.4 grains", "[mass_flow][slow]")
+{
+    // Beverloo, Leniger & van de Velde 1961: W ∝ (D − k d)^{5/2} with k = 1.4 for spheres.
+    LineFit line;
+    for (const double outlet : {0.060, 0.075, 0.095}) {
+        auto s = open_scene(
+            "flat_silo", {"fill.0.count=12000", "fill.0.region.radius=0.12", "wall.tube.radius=0.12",
+                             "wall.bottom.radius=0.12", "wall.bottom.hole_radius=" + std::to_string(0.5 * outlet),
+                             "sensor.outlet.from=1.0", "sensor.outlet.to=1.9"});
+        run_until(s, 1.9);
+        const auto flow = result(s, "outlet", "sphere_flow");
+        WARN("outlet " << outlet << " m: " << flow.value << " +- " << flow.spread << " spheres/s");
+        line.add(std::log(outlet - 1.4 * 0.01), std::log(flow.value));
+    }
+    WARN("exponent " << line.slope());
+    CHECK(line.slope() == Approx(2.5).margin(0.1));
+}
