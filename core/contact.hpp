@@ -36,7 +36,7 @@ struct RollingRow {
     double inertia = 0.0;        ///< 1 / (1/I_a + 1/I_b) [kg m²]
 };
 
-/// Law that a contact follows in this step (design: the table of section 3).
+/// Law that a contact follows in this step: README (4).
 enum class ContactKind : std::uint8_t { resting, open, impact };
 
 /// What one step knows of a contact besides its solve; read by the position pass, the report and the frames.

@@ -73,7 +73,7 @@ template <bool wall> void apply_rolling_impulse(const Contact& c, const Vec3& to
     }
 }
 
-/// The impulse that solves one contact exactly with all others held (physics.md 4.3), normal first, then friction on
+/// The impulse that solves one contact exactly with all others held, normal first, then friction on
 /// the disk of the new normal impulse:
 ///
 ///   λ_n ← max(0, λ_n − (u_n + Σ_n λ_n − q_n) / (W + Σ_n))                       README (6)

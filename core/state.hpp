@@ -9,10 +9,10 @@
 namespace talus
 {
 
-/// What a sweep reads and writes of one sphere: one cache line (design: 64 B).
+/// What a sweep reads and writes of one sphere: one cache line of 64 B.
 ///
 /// The rotation is kept as a = r ω [m/s], for then neither radius nor inertia stands in the contact kernel of solid
-/// spheres: an impulse p at the contact changes a by −5/2 p_n×t / m whatever the radius (physics.md 4.2).
+/// spheres: an impulse p at the contact changes a by −5/2 p_n×t / m whatever the radius.
 struct alignas(64) Motion {
     Vec3 velocity = Vec3::Zero();     ///< of the centre [m/s]
     double inverse_mass = 0.0;        ///< 1/m [1/kg]

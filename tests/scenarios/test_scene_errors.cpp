@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scenarios/build_scene.hpp"
+#include "tests/scenarios/small_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <functional>
+
+using namespace talus;
+using namespace talus::test;
+
+namespace
+{
+
+/// A way to spoil the small scene, and what is said of it.
+struct Mistake {
+    std::function<void(scene::Scene&)> make;
+    std::string key, sentence;
+};
+
+using S = scene::Scene;
+
+scene::WallTable wall(const std::string& shape)
+{
+    scene::WallTable wall;
+    wall.name = "other";
+    wall.shape = shape;
+    wall.material = "glass";
+    return wall;
+}
+
+/// Adds wall[1], a shape with nothing set but what `set` sets.
+std::function<void(S&)> add_wall(const std::string& shape, std::function<void(scene::WallTable&)> set)
+{
+    return [=](S& s) { set(s.wall.emplace_back(wall(shape))); };
+}
+
+const std::vector<Mistake> of_materials = {
+    {[](S& s) { s.fill[0].material = "steel"; }, "fill[0].material", "unknown material 'steel'; the scene has glass"},
+    {[](S& s) {
+         s.materials.push_back({"steel", 7800.0});
+         s.wall[0].material = "stel";
+     },
+        "wall[0].material", "unknown material 'stel'; the scene has glass, steel"},
+    {[](S& s) {
+         s.contact.clear();
+         s.materials.clear();
+     },
+        "wall[0].material", "unknown material 'glass'; the scene has none"},
+    {[](S& s) { s.contact[0].between = {"glass"}; }, "contact[0].between", "'between' names two materials, here are 1"},
+    {[](S& s) { s.contact.push_back(s.contact[0]); }, "contact[1].between",
+        "the contact of glass and glass is given twice"},
+    {[](S& s) {
+         s.solver.stabilisation = "projected";
+         s.contact[0].stiffness = 1e6;
+     },
+        "contact[0].stiffness",
+        "a stiffness goes with stabilisation \"matched\" only; with \"projected\" contacts are rigid"},
+    {[](S& s) {
+         s.materials.push_back({"steel", 7800.0});
+         s.wall[0].material = "steel";
+     },
+        "contact", "no [[contact]] between glass and steel, which can touch"},
+};
+
+const std::vector<Mistake> of_walls = {
+    {[](S& s) { s.wall[0].max.y() = 0.0; }, "wall[0].max",
+        "the box is empty: every coordinate of 'min' must be below that of 'max'"},
+    {add_wall("plane", [](auto& w) { w.normal.setZero(); }), "wall[1].normal", "a direction must not be zero"},
+    {add_wall("disk", [](auto&) {}), "wall[1].radius", "the radius of a disk must be given, and greater than 0"},
+    {add_wall("disk", [](auto& w) { w.radius = w.hole_radius = 0.1; }), "wall[1].hole_radius",
+        "the hole must be smaller than the disk"},
+    {add_wall("mesh", [](auto&) {}), "wall[1].mesh", "a wall of shape \"mesh\" needs an STL file with triangles"},
+    {add_wall("cylinder", [](auto& w) { w.radius = 0.1; }), "wall[1].height",
+        "the height of a cylinder must be given, and greater than 0"},
+    {add_wall("cylinder", [](auto& w) { w.height = 0.1; }), "wall[1].radius",
+        "the radius of a cylinder must be given, and greater than 0"},
+    {add_wall("cylinder",
+         [](auto& w) {
+             w.height = 0.1;
+             w.axis.setZero();
+         }),
+        "wall[1].axis", "a direction must not be zero"},
+    {add_wall("cone", [](auto& w) { w.top_radius = 0.1; }), "wall[1].height",
+        "the height of a cone must be given, and greater than 0"},
+    {add_wall("cone", [](auto& w) { w.height = 0.1; }), "wall[1].base_radius",
+        "one of the radii of a cone must be given, and greater than 0"},
+    {[](S& s) { s.wall.push_back(s.wall[0]); }, "wall[1].name", "two walls are called 'box'"},
+};
+
+const std::vector<Mistake> of_spheres = {
+    {[](S& s) { s.fill[0].count = 0; }, "fill",
+        "the scene has no spheres: give a [[fill]] or a [[pour]] with a count above 0"},
+    {[](S& s) { s.fill[0].diameter.value = 0.0; }, "fill[0].diameter.value",
+        "the diameter must be given, and greater than 0"},
+    {[](S& s) { s.fill[0].diameter.distribution = "uniform"; }, "fill[0].diameter.min",
+        "the smallest diameter must be given, and greater than 0"},
+    {[](S& s) { s.fill[0].diameter = {.distribution = "uniform", .min = 0.02, .max = 0.01}; }, "fill[0].diameter.max",
+        "the largest diameter must not be below the smallest"},
+    {[](S& s) { s.fill[0].region.max.x() = 0.0; }, "fill[0].region.max",
+        "the box is empty: every coordinate of 'min' must be below that of 'max'"},
+    {[](S& s) { s.fill[0].region.shape = "cylinder"; }, "fill[0].region.radius",
+        "the radius of a cylinder must be given, and greater than 0"},
+    {[](S& s) { s.fill[0].region.max.x() = 0.009; }, "fill[0].region", "the region is smaller than one sphere"},
+    {[](S& s) {
+         // Lattice points 20 mm apart: one layer of two by two between the walls, at most five of them high.
+         s.fill[0].spacing = 2.0;
+         s.fill[0].region.max = Vec3(0.019, 0.019, 0.019);
+     },
+        "fill[0].region",
+        "the region holds 1 spheres of this size clear of the walls, not 20; make it larger, or lower 'count' or "
+        "'spacing'"},
+    {[](S& s) {
+         s.fill[0].arrangement = "random";
+         s.fill[0].region.max = Vec3(0.0101, 0.0101, 0.0101);
+     },
+        "fill[0].region",
+        "the region holds 1 spheres of this size clear of the walls, not 20; make it larger, lower 'count', or use "
+        "arrangement \"lattice\""},
+    {[](S& s) {
+         s.pour.push_back(small_pour());
+         s.pour[0].region.max.z() = 0.155;
+     },
+        "pour[0].region", "the region is smaller than one sphere"},
+    {[](S& s) {
+         s.pour = {small_pour(), small_pour()};
+         s.pour[0].name = s.pour[1].name = "rain";
+     },
+        "pour[1].name", "two pours are called 'rain'"},
+};
+
+const std::vector<Mistake> of_the_rest = {
+    {[](S& s) { s.world.max = s.world.min = Vec3::Zero(); }, "world.max",
+        "the world is empty: every coordinate of 'min' must be below that of 'max'"},
+    {[](S& s) { s.solver.max_sweeps = 1; }, "solver.max_sweeps", "'max_sweeps' must be at least the 2 of 'min_sweeps'"},
+    {[](S& s) { s.world.gravity.setZero(); }, "time.step",
+        "without gravity and speeds there is no automatic step: give one in seconds"},
+    {[](S& s) {
+         s.outlet = {{"out", {}}};
+     },
+        "outlet[0].region.max", "the box is empty: every coordinate of 'min' must be below that of 'max'"},
+    {[](S& s) {
+         s.outlet = {{"out", s.fill[0].region}, {"out", s.fill[0].region}};
+     },
+        "outlet[1].name", "two outlets are called 'out'"},
+    {[](S& s) {
+         s.sensor = {sensor("a", "mass_flow"), sensor("a", "repose")};
+     },
+        "sensor[1].name", "two sensors are called 'a'"},
+    {[](S& s) {
+         s.sensor = {sensor("a", "mass_flow")};
+         s.sensor[0].from = s.sensor[0].to = 1.0;
+     },
+        "sensor[0].to", "'to' must be later than 'from'"},
+    {[](S& s) {
+         s.sensor = {sensor("a", "mass_flow")};
+         s.sensor[0].normal.setZero();
+     },
+        "sensor[0].normal", "a direction must not be zero"},
+    {[](S& s) {
+         s.sensor = {sensor("a", "repose")};
+         s.sensor[0].inner_radius = s.sensor[0].outer_radius = 0.1;
+     },
+        "sensor[0].outer_radius", "'outer_radius' must be above 'inner_radius'"},
+    {[](S& s) {
+         s.sensor = {sensor("a", "repose")};
+         s.world.gravity.setZero();
+         s.time.step = {1e-4, ""};
+     },
+        "sensor[0].kind", "an angle of repose needs gravity"},
+};
+
+void check_all(const std::vector<Mistake>& mistakes)
+{
+    for (const Mistake& mistake : mistakes) {
+        auto scene = small_scene();
+        mistake.make(scene);
+        INFO(mistake.key << ": " << mistake.sentence);
+        std::string key = "none", sentence = "no error";
+        try {
+            build_scene(scene);
+        } catch (const SceneError& error) {
+            key = error.key;
+            sentence = error.what();
+        }
+        CHECK(key == mistake.key);
+        CHECK(sentence == mistake.sentence);
+    }
+}
+
+} // namespace
+
+TEST_CASE("a scene with a mistake is not built, and the key and the reason are told", "[scenes][errors]")
+{
+    SECTION("materials and their contacts")
+    {
+        check_all(of_materials);
+    }
+    SECTION("walls")
+    {
+        check_all(of_walls);
+    }
+    SECTION("spheres")
+    {
+        check_all(of_spheres);
+    }
+    SECTION("world, solver, outlets and sensors")
+    {
+        check_all(of_the_rest);
+    }
+}
+
+TEST_CASE("of two tables with one name both are told", "[scenes][errors]")
+{
+    auto scene = small_scene();
+    scene.wall.push_back(wall("plane"));
+    scene.wall.push_back(wall("plane"));
+    try {
+        build_scene(scene);
+        FAIL("built");
+    } catch (const SceneError& error) {
+        CHECK(error.key == "wall[2].name");
+        CHECK(error.first_key == "wall[1].name");
+    }
+}
+
+TEST_CASE("tables whose name is left out do not collide", "[scenes]")
+{
+    auto scene = small_scene();
+    scene.pour = {small_pour(), small_pour()};
+    scene.outlet = {{"", scene.fill[0].region}, {"", scene.fill[0].region}};
+    const auto simulation = build_scene(scene);
+    CHECK(simulation.pours.size() == 2);
+    CHECK(simulation.pours[0].name != simulation.pours[1].name);
+    CHECK(simulation.model.outlets.size() == 2);
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/stabilisation.hpp"
+#include "scenarios/build_scene.hpp"
+#include "scenarios/step_choice.hpp"
+#include "tests/scenarios/small_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <numbers>
+
+using namespace talus;
+using namespace talus::test;
+using Catch::Matchers::Contains;
+
+TEST_CASE("the step is 0.008 sqrt(d/g) of the smallest sphere where nothing is fast", "[step_choice]")
+{
+    auto scene = small_scene();
+    scene.fill[0].diameter = {.distribution = "uniform", .min = 0.008, .max = 0.01};
+    const auto simulation = build_scene(scene);
+    CHECK(simulation.model.time_step == Approx(0.008 * std::sqrt(0.008 / 9.81)));
+    CHECK_THAT(simulation.step_explanation, Contains("0.008 sqrt(d/g)") && Contains("d = 8 mm"));
+}
+
+TEST_CASE("the fastest sphere moves a tenth of the smallest diameter in a step at most", "[step_choice]")
+{
+    auto scene = small_scene();
+    SECTION("one that starts fast")
+    {
+        scene.fill[0].velocity = Vec3(0, 0, -30.0);
+    }
+    SECTION("one that is poured in fast")
+    {
+        scene.pour.push_back(small_pour());
+        scene.pour[0].velocity = Vec3(30.0, 0, 0);
+    }
+    SECTION("one that spins fast")
+    {
+        scene.fill[0].angular_velocity = Vec3(0, 30.0 / 0.005, 0);
+    }
+    SECTION("one that falls far: 50 m")
+    {
+        scene.wall[0].max.z() = 50.0;
+        scene.fill[0].region.min.z() = 49.9;
+        scene.fill[0].region.max.z() = 50.0;
+    }
+    const auto simulation = build_scene(scene);
+    const double step = simulation.model.time_step;
+    CHECK(step < 0.008 * std::sqrt(0.01 / 9.81));
+    // 30 m/s and a fall through the box of at most 0.2 m; or v² = 2 g 50 m.
+    const double fastest = 0.1 * 0.01 / step;
+    CHECK(fastest >= 30.0);
+    CHECK(fastest < std::sqrt(2 * 9.81 * 50.1) + 0.3);
+    CHECK_THAT(simulation.step_explanation, Contains("moves 0.1 d"));
+}
+
+TEST_CASE("a sphere that leaves through an outlet falls until its upper face", "[step_choice]")
+{
+    auto scene = small_scene();
+    scene.outlet = {{"below", box_region(Vec3(-1, -1, -2), Vec3(1, 1, -1))}};
+    const auto simulation = build_scene(scene);
+    // From the highest sphere of the fill, below 0.1 m, to -1 m.
+    const double fall = 1.0 + 0.1;
+    const auto choice = choose_step(scene, simulation);
+    CHECK(choice.fastest_speed <= std::sqrt(2 * 9.81 * fall));
+    CHECK(choice.fastest_speed > std::sqrt(2 * 9.81 * 1.0));
+}
+
+TEST_CASE("without gravity the speeds alone decide the step", "[step_choice]")
+{
+    auto scene = small_scene();
+    scene.world.gravity.setZero();
+    scene.fill[0].velocity = Vec3(2.0, 0, 0);
+    CHECK(build_scene(scene).model.time_step == Approx(0.1 * 0.01 / 2.0));
+}
+
+TEST_CASE("a step that the scene gives is taken, and told beside the automatic one", "[step_choice]")
+{
+    auto scene = small_scene();
+    scene.time.step = {1e-3, ""};
+    const auto simulation = build_scene(scene);
+    CHECK(simulation.model.time_step == 1e-3);
+    CHECK_THAT(
+        simulation.step_explanation, Contains("1 ms") && Contains("given by the scene") && Contains("0.2554 ms"));
+}
+
+TEST_CASE("a given step needs neither gravity nor speeds", "[step_choice]")
+{
+    auto scene = small_scene();
+    scene.world.gravity.setZero();
+    scene.time.step = {1e-3, ""};
+    CHECK(build_scene(scene).model.time_step == 1e-3);
+}
+
+TEST_CASE("the forecast tells the stiffness that the law has between two mean spheres", "[step_choice]")
+{
+    const auto simulation = build_scene(small_scene());
+    const auto& model = simulation.model;
+    // k = 4 Υ / (Σ h²) of the compliance Σ that a resting contact of this run gets.
+    const double mass = 2500.0 * std::numbers::pi / 6.0 * 1e-6;
+    const double compliance =
+        matched_compliance(model.materials.between(0, 0), 2.0 / mass, model.time_step, model.solver.min_sweeps);
+    char stiffness[40];
+    std::snprintf(
+        stiffness, sizeof stiffness, "%.3g N/m", 4 * upsilon / (compliance * model.time_step * model.time_step));
+    CHECK_THAT(simulation.overlap_forecast, Contains(stiffness));
+    // mean overlap/d = 0.4 Z g h² / (N_min d) with h² = 0.008² d/g: 1.28e-5 Z.
+    CHECK_THAT(simulation.overlap_forecast, Contains("1.3e-05 Z d"));
+}
+
+TEST_CASE("rigid contacts have no forecast of their overlap", "[step_choice]")
+{
+    auto scene = small_scene();
+    scene.solver.stabilisation = "projected";
+    CHECK(build_scene(scene).overlap_forecast.empty());
+}
