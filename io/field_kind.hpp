@@ -3,10 +3,12 @@
 
 #include "scenarios/scene.hpp"
 
+#include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
-/// The kinds of fields that a scene's `describe` hands out, and the names of their keys.
+/// The kinds of fields that a scene's `describe` hands out, the names of their keys, and which of them a table has.
 namespace talus
 {
 
@@ -39,6 +41,33 @@ template <Table Described> std::vector<std::string_view> key_names()
     Described table;
     Described::describe(table, [&](std::string_view name, auto&&...) { names.push_back(name); });
     return names;
+}
+
+/// The key of a table that decides which others it has, with its value: shape = "disk". Empty where there is none.
+struct Decision {
+    std::string_view key;
+    std::string value;
+};
+
+template <Table Described> Decision decision_of(const Described& table)
+{
+    Decision decision;
+    Described::describe(table,
+        [&]<typename Field>(std::string_view name, const Field& field, const scene::Allowed& allowed, auto&&...) {
+            if constexpr (std::is_same_v<Field, std::string>)
+                if (allowed.decides) decision = {name, field};
+        });
+    return decision;
+}
+
+/// Calls visit(name, field, unit) for the keys that this table has, in order.
+template <Table Described> void for_each_own_key(const Described& table, auto&& visit)
+{
+    const Decision decision = decision_of(table);
+    Described::describe(table, [&](std::string_view name, const auto& field, const scene::Allowed& allowed,
+                                   std::string_view unit, std::string_view) {
+        if (allowed.belongs_to(decision.value)) visit(name, field, unit);
+    });
 }
 
 } // namespace talus

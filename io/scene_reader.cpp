@@ -36,8 +36,22 @@ public:
     template <Table Described> void read_table(const toml::table& table, const Location& at, Described& described)
     {
         refuse_unknown_keys(table, at, key_names<Described>());
+        read_keys(table, at, described, [](const scene::Allowed& key) { return key.decides; });
+        const Decision decision = decision_of(described);
+        refuse_keys_of_other_kinds(table, at, described, decision);
+        read_keys(table, at, described,
+            [&](const scene::Allowed& key) { return !key.decides && key.belongs_to(decision.value); });
+    }
+
+private:
+    Places& places_;
+
+    template <Table Described>
+    void read_keys(const toml::table& table, const Location& at, Described& described, auto&& wanted)
+    {
         Described::describe(described, [&](std::string_view name, auto& field, const scene::Allowed& allowed,
                                            std::string_view unit, std::string_view meaning) {
+            if (!wanted(allowed)) return;
             const toml::node* node = table.get(name);
             if (!node && allowed.required) refuse_missing_key(table, at, name, meaning);
             if (!node) return;
@@ -45,9 +59,6 @@ public:
             read_field(*node, at.key(name), Key{name, allowed, unit}, field);
         });
     }
-
-private:
-    Places& places_;
 
     void read_field(const toml::node& node, const std::string&, const Key& key, auto& field)
     {
@@ -110,6 +121,22 @@ private:
             throw InputError(fmt::format("{}: unknown key '{}' {}{}", place_in(name.source()), one_line(name.str()),
                 where, nearest.empty() ? fmt::format("; its keys are {}", enumerate_names(known, "and")) : nearest));
         }
+    }
+
+    /// Refuses the `hole_radius` of a plane: a key that would have no effect.
+    template <Table Described>
+    static void refuse_keys_of_other_kinds(
+        const toml::table& table, const Location& at, const Described& described, const Decision& decision)
+    {
+        std::vector<std::string_view> own;
+        for_each_own_key(described, [&](std::string_view name, auto&&...) { own.push_back(name); });
+        Described::describe(described, [&](std::string_view name, auto&, const scene::Allowed& allowed, auto&&...) {
+            const auto found = table.find(name);
+            if (found == table.end() || allowed.belongs_to(decision.value)) return;
+            throw InputError(fmt::format("{}: key '{}' in {} goes with {} {}, not '{}', whose keys are {}",
+                place_in(found->first.source()), name, at.title, decision.key, enumerate_names(allowed.of, "or"),
+                decision.value, enumerate_names(own, "and")));
+        });
     }
 
     [[noreturn]] static void refuse_missing_key(

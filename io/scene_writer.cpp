@@ -60,7 +60,7 @@ std::string toml_text(const std::vector<std::string>& list)
 template <Table Described> std::string toml_text(const Described& table)
 {
     std::string text;
-    Described::describe(table, [&](std::string_view name, const auto& field, auto&&...) {
+    for_each_own_key(table, [&](std::string_view name, const auto& field, std::string_view) {
         text += fmt::format("{} {} = {}", text.empty() ? "" : ",", name, toml_text(field));
     });
     return "{" + text + " }";
@@ -75,8 +75,8 @@ void write_line(std::string& text, std::string_view name, const auto& field, std
 template <Table Described> void write_table(std::string& text, const std::string& header, const Described& table)
 {
     text += fmt::format("\n{}\n", header);
-    Described::describe(table, [&](std::string_view name, const auto& field, const scene::Allowed&,
-                                   std::string_view unit, std::string_view) { write_line(text, name, field, unit); });
+    for_each_own_key(table,
+        [&](std::string_view name, const auto& field, std::string_view unit) { write_line(text, name, field, unit); });
 }
 
 /// One key of the scene itself, with its unit if it is no table.
@@ -109,8 +109,8 @@ void write_key(
 std::string resolved_scene(const scene::Scene& scene)
 {
     std::string text;
-    scene::Scene::describe(scene, [&](std::string_view name, const auto& field, const scene::Allowed&,
-                                      std::string_view unit, std::string_view) { write_key(text, name, field, unit); });
+    for_each_own_key(scene,
+        [&](std::string_view name, const auto& field, std::string_view unit) { write_key(text, name, field, unit); });
     return text;
 }
 
