@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace talus
 {
@@ -80,12 +81,16 @@ SolveReport solve(ContactNetwork& network, Motion* motion, const SolverSettings&
     with_tile_crew(network.tiles, [&](TileCrew& crew) {
         // Every thread goes through the same loop with the same numbers.
         int sweeps = 0;
-        double error = infinity;
+        double change = infinity, error = infinity;
         while (error > solver.tolerance && sweeps < solver.max_sweeps) {
             auto& of_tile = swept[static_cast<std::size_t>(sweeps % 2)];
             crew.color_by_color([&](std::size_t tile) { of_tile[tile] = relax_tile<R, true>(network, tile, motion); });
             ++sweeps;
-            const bool ready = sweeps >= solver.min_sweeps && residual(total(of_tile)) <= solver.tolerance;
+            // ε after a sweep is about what the next sweep would change: as much less as this one changed less than the
+            // last.
+            const double last_change = std::exchange(change, residual(total(of_tile)));
+            const double expected = change < last_change ? change * change / last_change : change;
+            const bool ready = sweeps >= solver.min_sweeps && (expected <= solver.tolerance || change == 0.0);
             if (!ready && sweeps < solver.max_sweeps) continue;
             crew.all_at_once([&](std::size_t tile) { measured[tile] = relax_tile<R, false>(network, tile, motion); });
             error = residual(total(measured));

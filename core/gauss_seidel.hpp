@@ -24,8 +24,8 @@ double apply_warm_start(ContactNetwork& network, std::vector<Motion>& motion, co
 ///
 ///   ε = (Σ W|δ|² / max(Σ W|λ|², Σ W|λ⁰|²))^½ ≤ tolerance,  δ the exact correction of one contact alone,  README (9)
 ///
-/// but at least min_sweeps and at most max_sweeps. During the sweeps δ is the change just made; before the loop ends a
-/// pass that changes nothing measures ε itself.
+/// but at least min_sweeps and at most max_sweeps. The changes made by the sweeps tell when ε may be small enough; then
+/// a pass that changes nothing measures ε itself, and the sweeps go on if it is not.
 /// @param warm_size Σ W|λ⁰|² of the warm start
 SolveReport solve_contacts(ContactNetwork& network, std::vector<Motion>& motion, const ModelledPhysics& physics,
     const SolverSettings& solver, double warm_size);
