@@ -8,7 +8,6 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
-#include <thread>
 
 namespace talus
 {
@@ -40,6 +39,8 @@ public:
     }
 
 private:
+    static constexpr int short_spin = 5000; ///< loads of a cached word: some microseconds
+
     const Tiles& tiles_;
     const int threads_;
     alignas(64) std::atomic<std::uint32_t> next_{0}; ///< tile to be taken next
@@ -62,10 +63,12 @@ private:
             waiting_.store(0, std::memory_order_relaxed);
             next_.store(next_tile, std::memory_order_relaxed);
             round_.store(round + 1, std::memory_order_release);
+            round_.notify_all();
             return;
         }
-        for (int spins = 0; round_.load(std::memory_order_acquire) == round; ++spins)
-            if (spins > 1000) std::this_thread::yield();
+        for (int spins = 0; spins < short_spin; ++spins)
+            if (round_.load(std::memory_order_acquire) != round) return;
+        round_.wait(round, std::memory_order_acquire);
     }
 };
 
