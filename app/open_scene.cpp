@@ -45,7 +45,9 @@ OpenedScene open_scene(const CommandLine& line)
         Simulation simulation = build_scene(file.scene);
         return {file.path.stem(), std::move(file.scene), std::move(simulation)};
     } catch (const SceneError& error) {
-        throw InputError(fmt::format("{}: {}", file.place_of(error.key), error.what()));
+        const std::string first =
+            error.first_key.empty() ? "" : fmt::format("; the first is at {}", file.place_of(error.first_key));
+        throw InputError(fmt::format("{}: {}{}", file.place_of(error.key), error.what(), first));
     }
 }
 

@@ -25,8 +25,7 @@ ParticleLedger particle_ledger(const Simulation& simulation, const std::vector<I
 std::string shortfall_of(const Pour& pour, double time)
 {
     if (pour.poured == pour.count) return "";
-    const auto due = static_cast<std::int64_t>(std::max(0.0, time - pour.start) * pour.rate);
-    if (pour.poured + 1 >= std::min(due, pour.count)) return "the run ended before the rest was due";
+    if (pour.poured >= due_count(pour, time) - 1) return "the run ended before the rest was due";
     return fmt::format("its region was full: {} times there was no free place", pour.refused);
 }
 

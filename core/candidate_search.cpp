@@ -279,7 +279,9 @@ void search_walls(
         moves[i] = 1;
         for (std::size_t w = 0; w < model.walls.size(); ++w) {
             const auto first = static_cast<std::uint32_t>(entries.patches.size());
-            patches_near(model.walls[w].shape, network.listed_box[i], entries.patches);
+            // A wall does not come half of the way, as another sphere does.
+            const Box room = network.listed_box[i].grown(0.5 * open_contact_reach * model.min_diameter);
+            patches_near(model.walls[w].shape, room, entries.patches);
             const auto patches = static_cast<std::uint32_t>(entries.patches.size()) - first;
             const auto wall = static_cast<std::int32_t>(w);
             if (patches > 0) entries.walls.push_back({i, wall, first, patches, find_old_wall_pair(network, i, wall)});

@@ -150,9 +150,17 @@ ContactSurvey assemble_sphere_contacts(
             network.pair_carried.clear(k);
             continue;
         }
-        assembly.add({a, b, normal, distance - radii, u_n, u_n, distance / radii, ma.inverse_mass + mb.inverse_mass,
-                         ma.radius * mb.radius / radii,
-                         model.physics.rolling ? inverse_inertia(ma) + inverse_inertia(mb) : 0.0, k},
+        assembly.add({.a = a,
+                         .b = b,
+                         .normal = normal,
+                         .gap = distance - radii,
+                         .u_n = u_n,
+                         .u_n_ahead = u_n, // gravity is the same for both
+                         .arm_scale = distance / radii,
+                         .inverse_mass_sum = ma.inverse_mass + mb.inverse_mass,
+                         .rolling_radius = ma.radius * mb.radius / radii,
+                         .inverse_inertia_sum = model.physics.rolling ? inverse_inertia(ma) + inverse_inertia(mb) : 0.0,
+                         .slot = k},
             model.materials.between(state.material[a], state.material[b]), 0.0);
     }
     assembly.finish(tile);
@@ -184,8 +192,17 @@ ContactSurvey assemble_wall_contacts(
             const Vec3& n = points[k].normal;
             const double gap = points[k].distance - m.radius;
             const double u_n = n.dot(m.velocity);
-            assembly.add({pair.sphere, pair.wall, n, gap, u_n, u_n + step.h * n.dot(model.gravity), 1.0, m.inverse_mass,
-                             m.radius, inverse_inertia(m), pair.first + static_cast<std::uint32_t>(k)},
+            assembly.add({.a = pair.sphere,
+                             .b = pair.wall,
+                             .normal = n,
+                             .gap = gap,
+                             .u_n = u_n,
+                             .u_n_ahead = u_n + step.h * n.dot(model.gravity),
+                             .arm_scale = 1.0,
+                             .inverse_mass_sum = m.inverse_mass,
+                             .rolling_radius = m.radius,
+                             .inverse_inertia_sum = inverse_inertia(m),
+                             .slot = pair.first + static_cast<std::uint32_t>(k)},
                 model.materials.between(state.material[pair.sphere], wall.material), n.dot(x) - gap);
         }
     }

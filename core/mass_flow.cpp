@@ -23,16 +23,12 @@ void MassFlow::sample(const State& state, const Model&)
 {
     double behind = 0.0;
     std::int64_t behind_count = 0;
-    std::int64_t newest = known_ids_;
     for (std::size_t i = 0; i < state.count(); ++i) {
-        if (state.id[i] >= known_ids_) inserted_mass_ += state.mass(i);
-        newest = std::max(newest, state.id[i] + 1);
         if (normal_.dot(state.position[i] - point_) > 0.0) continue;
         behind += state.mass(i);
         ++behind_count;
     }
-    known_ids_ = newest;
-    samples_.push_back({state.time, inserted_mass_ - behind, static_cast<double>(known_ids_ - behind_count)});
+    samples_.push_back({state.time, state.inserted_mass - behind, static_cast<double>(state.next_id - behind_count)});
 }
 
 std::vector<Measurement> MassFlow::latest() const

@@ -27,8 +27,6 @@ private:
     };
     Vec3 point_, normal_;
     double from_, to_;
-    double inserted_mass_ = 0.0;
-    std::int64_t known_ids_ = 0; ///< spheres with lower ids are in inserted_mass_
     std::vector<Sample> samples_;
 };
 

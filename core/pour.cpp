@@ -51,11 +51,17 @@ double SizeDistribution::mean_volume() const
     return std::numbers::pi / 24.0 * (max + min) * (max * max + min * min);
 }
 
+std::int64_t due_count(const Pour& source, double time)
+{
+    if (time < source.start) return 0;
+    // In floating point until it is known to be small: a rate of 1e99 means "at once".
+    return static_cast<std::int64_t>(
+        std::min(static_cast<double>(source.count), 1.0 + std::floor((time - source.start) * source.rate)));
+}
+
 std::size_t pour(Pour& source, State& state, const Model& model)
 {
-    if (state.time < source.start) return 0;
-    const auto due =
-        std::min(source.count, 1 + static_cast<std::int64_t>(std::floor((state.time - source.start) * source.rate)));
+    const auto due = due_count(source, state.time);
     if (source.poured >= due) return 0;
 
     auto near = spheres_near(state, source.region, 0.5 * source.diameter.max);

@@ -38,6 +38,9 @@ struct Pour {
     Random random;
 };
 
+/// How many spheres should have entered by this time: the first at the start, then `rate` a second, at most `count`.
+std::int64_t due_count(const Pour& source, double time);
+
 /// Lets in what is due at the state's time. A sphere that finds no free place in 50 tries waits for the next step.
 /// Returns how many came in.
 std::size_t pour(Pour& source, State& state, const Model& model);

@@ -3,6 +3,8 @@
 
 #include "core/sensor.hpp"
 
+#include <limits>
+
 namespace talus
 {
 
@@ -21,10 +23,12 @@ public:
     std::vector<Measurement> results() const override;
 
 private:
+    static constexpr double nothing_yet = std::numeric_limits<double>::quiet_NaN();
+
     Vec3 base_;
     double inner_radius_, outer_radius_;
-    double angle_ = 0.0, spread_ = 0.0; ///< [degree]; not a number while there is no heap
-    double apex_ = 0.0;                 ///< height of the highest ring mean [m]
+    double angle_ = nothing_yet, spread_ = nothing_yet; ///< [degree]; not a number while there is no heap
+    double apex_ = 0.0;                                 ///< height of the highest ring mean [m]
 };
 
 } // namespace talus

@@ -23,6 +23,7 @@ std::size_t add_sphere(State& state, const Vec3& position, double radius, double
     const Vec3& velocity, const Vec3& angular_velocity)
 {
     const double mass = density * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+    state.inserted_mass += mass;
     state.position.push_back(position);
     state.motion.push_back({velocity, 1.0 / mass, radius * angular_velocity, radius});
     state.material.push_back(material);

@@ -34,9 +34,10 @@ struct State {
     std::vector<std::int32_t> last_wall; ///< index of the wall touched last, −1 for none
     std::vector<std::uint8_t> leaving;   ///< 1 once the centre has been inside an outlet
 
-    double time = 0.0;        ///< [s]
-    std::int64_t steps = 0;   ///< taken so far
-    std::int64_t next_id = 0; ///< of the next sphere inserted
+    double time = 0.0;          ///< [s]
+    std::int64_t steps = 0;     ///< taken so far
+    std::int64_t next_id = 0;   ///< of the next sphere inserted: so many have been inserted so far …
+    double inserted_mass = 0.0; ///< … with this mass in all [kg]
 
     std::size_t count() const { return position.size(); }
     double radius(std::size_t i) const { return motion[i].radius; }

@@ -11,6 +11,10 @@ namespace talus
 namespace
 {
 
+/// A triangle with less than this area over its longest edge squared is a line but for rounding: nothing on it is well
+/// defined.
+constexpr double sliver = 1e-10;
+
 /// The result for a thin wall: the normal points from the wall to x, whichever side that is.
 WallPoint thin_wall_point(const Vec3& nearest, const Vec3& x, const Vec3& normal_if_on_wall)
 {
@@ -194,7 +198,9 @@ Mesh make_mesh(std::vector<Vec3> vertices, std::vector<std::array<std::int32_t, 
 {
     std::erase_if(triangles, [&](const auto& t) {
         const auto vertex = [&](std::size_t k) -> const Vec3& { return vertices[static_cast<std::size_t>(t[k])]; };
-        return (vertex(1) - vertex(0)).cross(vertex(2) - vertex(0)).squaredNorm() == 0.0;
+        const Vec3 ab = vertex(1) - vertex(0), ac = vertex(2) - vertex(0);
+        const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+        return ab.cross(ac).norm() <= sliver * longest;
     });
     auto tree = std::make_shared<const TriangleTree>(vertices, triangles);
     return {std::move(vertices), std::move(triangles), std::move(tree)};

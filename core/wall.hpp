@@ -97,7 +97,7 @@ Box bounds(const Shape& shape);
 /// Panels of the faces of `box`; `open` names faces left out ("x-", "x+", …, "z+").
 Panels box_panels(const Box& box, const std::vector<std::string>& open);
 
-/// A mesh with its search tree. Triangles without area are dropped.
+/// A mesh with its search tree. Triangles that are lines, but for rounding, are dropped.
 Mesh make_mesh(std::vector<Vec3> vertices, std::vector<std::array<std::int32_t, 3>> triangles);
 
 } // namespace talus

@@ -24,7 +24,7 @@ bool on_a_nearer_patch(
     const PatchPoint& candidate, const std::vector<PatchPoint>& all, const Shape& shape, double tolerance)
 {
     return std::any_of(all.begin(), all.end(), [&](const PatchPoint& other) {
-        return other.patch != candidate.patch && other.at.distance < candidate.at.distance - tolerance &&
+        return other.patch != candidate.patch && other.at.distance < candidate.at.distance &&
                std::abs(nearest_point(shape, static_cast<std::size_t>(other.patch), candidate.at.point).distance) <=
                    tolerance;
     });

@@ -15,14 +15,15 @@ namespace talus
 struct SceneFile {
     scene::Scene scene;
     std::filesystem::path path;
-    std::map<std::string, std::string> places; ///< key path ("fill[0].region") → "file:line:column" or "--set key=value"
+    std::map<std::string, std::string>
+        places; ///< key path ("fill[0].region") → "file:line:column" or "--set key=value"
 
     /// The place of a key, or of the nearest table around it that stands in the file.
     std::string place_of(const std::string& key) const;
 };
 
-/// Reads a scene file strictly: an unknown key, a wrong type or a value out of range is refused with file, line, column,
-/// the key, what is allowed and the nearest known key. Reads the STL files that it names.
+/// Reads a scene file strictly: an unknown key, a wrong type or a value out of range is refused with file, line,
+/// column, the key, what is allowed and the nearest known key. Reads the STL files that it names.
 /// @param overrides "key=value", the value in TOML; a key reaches tables by name ("wall.gate.remove_at",
 ///   "contact.glass-glass.friction") or by index ("fill.0.count").
 /// @throws InputError

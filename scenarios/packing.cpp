@@ -67,6 +67,16 @@ private:
     std::unordered_map<std::uint64_t, std::vector<PackedSphere>> cells_;
 };
 
+/// A grid with these spheres in it, to which spheres of these diameters may be added.
+SphereGrid grid_of(const std::vector<PackedSphere>& others, const SizeDistribution& diameter)
+{
+    double largest = diameter.max;
+    for (const auto& sphere : others) largest = std::max(largest, 2.0 * sphere.radius);
+    SphereGrid grid(largest);
+    for (const auto& sphere : others) grid.add(sphere);
+    return grid;
+}
+
 Vec3 random_in_ball(Random& random)
 {
     for (;;) {
@@ -92,7 +102,7 @@ struct LatticeFrame {
 } // namespace
 
 std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistribution& diameter, std::int64_t count,
-    double spacing, const Model& model, Random& random)
+    double spacing, const std::vector<PackedSphere>& others, const Model& model, Random& random)
 {
     const double a = spacing * diameter.max; // distance of nearest lattice points
     const LatticeFrame frame(model.gravity);
@@ -104,6 +114,7 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistri
     const auto rows = static_cast<std::int64_t>(half(frame.e1) / a) + 2;
     const auto columns = static_cast<std::int64_t>(half(frame.e2) / a) + 2;
 
+    const auto grid = grid_of(others, diameter);
     std::vector<PackedSphere> spheres;
     for (std::int64_t k = 0; k < layers; ++k) {
         for (std::int64_t i = -rows; i <= rows; ++i)
@@ -115,7 +126,8 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistri
                                    static_cast<double>(j) * a * frame.e2 +
                                    (0.5 * a - half(frame.up) + static_cast<double>(k) * a) * frame.up;
                 const PackedSphere sphere{point + jitter, radius};
-                if (region.contains(sphere.center, radius) && !touches_wall(model, sphere)) spheres.push_back(sphere);
+                if (region.contains(sphere.center, radius) && !grid.overlaps(sphere) && !touches_wall(model, sphere))
+                    spheres.push_back(sphere);
             }
     }
     return spheres;
@@ -124,11 +136,7 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistri
 std::vector<PackedSphere> random_packing(const Region& region, const SizeDistribution& diameter, std::int64_t count,
     const std::vector<PackedSphere>& others, const Model& model, Random& random)
 {
-    double largest = diameter.max;
-    for (const auto& sphere : others) largest = std::max(largest, 2.0 * sphere.radius);
-    SphereGrid grid(largest);
-    for (const auto& sphere : others) grid.add(sphere);
-
+    auto grid = grid_of(others, diameter);
     std::vector<PackedSphere> spheres;
     while (static_cast<std::int64_t>(spheres.size()) < count) {
         const double radius = 0.5 * diameter.draw(random);

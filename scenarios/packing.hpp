@@ -22,7 +22,7 @@ struct PackedSphere {
 /// it collapses when it falls: a close-packed one stays a crystal. Places where a sphere would touch a wall that stands
 /// at time 0 are left out.
 std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistribution& diameter, std::int64_t count,
-    double spacing, const Model& model, Random& random);
+    double spacing, const std::vector<PackedSphere>& others, const Model& model, Random& random);
 
 /// Spheres at random places without overlap; gives up on one after 2000 tries, so it may return fewer than asked for.
 /// @param others already there, kept clear of

@@ -139,7 +139,8 @@ struct SolverTable {
         key("restitution_threshold", self.restitution_threshold, at_least(0.0), "gravity x step",
             "slower impacts do not rebound");
         key("push_out_speed", self.push_out_speed, Allowed{.min = 0.0, .names = {"auto"}}, "m/s",
-            "largest speed with which overlap is undone; auto: 0.1 sqrt(diameter x gravity)");
+            "largest speed with which overlap is undone; auto: 0.1 sqrt(diameter x gravity), without gravity 0.0008 "
+            "diameter / step");
     }
 };
 

@@ -30,7 +30,8 @@ struct Simulation {
     std::string overlap_forecast;  ///< one line: the stiffness cap of `matched` and the overlap that it implies
 };
 
-/// Lets poured spheres in, advances by one step, and takes away the spheres that are in an outlet.
+/// Lets poured spheres in, takes away (every tenth step) the spheres that have been in an outlet, and advances by one
+/// step. Contacts and spheres belong together until the next call.
 StepReport step(Simulation& simulation, const PhaseObserver& observer = {});
 
 /// Overlaps of the spheres as they lie: how many contacts, and the worst of them.

@@ -2,12 +2,13 @@
 #include "scenarios/step_choice.hpp"
 
 #include "core/stabilisation.hpp"
-#include "scenarios/build_scene.hpp"
+#include "scenarios/scene_error.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <set>
 
 namespace talus
 {
@@ -16,12 +17,22 @@ namespace
 
 constexpr double gravity_share = 0.008; ///< h / √(d/g); 0.003 is fine, above 0.016 only if the scene insists
 constexpr double longest_move = 0.1;    ///< diameters in a step
+constexpr double level = 0.99;          ///< cosine of the steepest plane on which spheres come to rest for sure
 
 template <class... Numbers> std::string text(const char* format, Numbers... numbers)
 {
     char buffer[300];
     std::snprintf(buffer, sizeof buffer, format, numbers...);
     return buffer;
+}
+
+/// The lowest point of the world, which may be open upwards.
+double lowest_corner(const Box& world, const Vec3& up)
+{
+    double height = 0.0;
+    for (int d = 0; d < 3; ++d)
+        if (up[d] != 0.0) height += up[d] * (up[d] > 0.0 ? world.min[d] : world.max[d]);
+    return height;
 }
 
 /// How far a sphere can fall: along gravity through everything that bounds the scene.
@@ -42,12 +53,21 @@ double fall_height(const Simulation& simulation)
         spheres.extend(
             Box{simulation.state.position[i], simulation.state.position[i]}.grown(simulation.state.radius(i)));
     if (!spheres.empty()) highest = std::max(highest, span(spheres));
+    bool floor = !model.outlets.empty(), slope = false;
     for (const auto& wall : model.walls) {
-        const Box box = bounds(wall.shape);
-        if (!box.empty()) span(box);
-        if (const auto* plane = std::get_if<Plane>(&wall.shape); plane && plane->normal.dot(up) > 0.99)
+        const auto* plane = std::get_if<Plane>(&wall.shape);
+        if (!plane) {
+            span(bounds(wall.shape));
+            floor = true;
+        } else if (plane->normal.dot(up) > level) {
             lowest = std::min(lowest, plane->point.dot(up));
+            floor = true;
+        } else {
+            slope = slope || plane->normal.dot(up) > 0.0;
+        }
     }
+    // Nothing is there to land on, or it leads on downwards: the fall ends where the world does.
+    if (!floor || slope) lowest = std::min(lowest, lowest_corner(model.world, up));
     // A sphere is free to fall until it enters an outlet, from above.
     for (const auto& outlet : model.outlets) {
         const Box box = outlet.bounds();
@@ -62,6 +82,14 @@ double fastest_speed(const Simulation& simulation)
     for (const auto& m : simulation.state.motion) start = std::max({start, m.velocity.norm(), m.rim_velocity.norm()});
     for (const auto& pour : simulation.pours) start = std::max(start, pour.velocity.norm());
     return std::sqrt(start * start + 2.0 * simulation.model.gravity.norm() * fall_height(simulation));
+}
+
+/// The materials that spheres are made of, now or later.
+std::set<int> sphere_materials(const Simulation& simulation)
+{
+    std::set<int> materials(simulation.state.material.begin(), simulation.state.material.end());
+    for (const auto& pour : simulation.pours) materials.insert(pour.material);
+    return materials;
 }
 
 } // namespace
@@ -97,12 +125,18 @@ StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation)
 std::string forecast_overlap(const Simulation& simulation)
 {
     const auto& model = simulation.model;
-    if (model.solver.stabilisation != Stabilisation::matched) return {};
+    if (model.solver.stabilisation == Stabilisation::projected)
+        return "contacts are rigid; spheres that overlap are moved apart after each step";
     const double h = model.time_step, d = model.mean_diameter;
     const auto n = model.solver.min_sweeps;
-    const double density = model.materials.list[0].density;
+    double density = 0.0, stiffness = infinity;
+    for (const int a : sphere_materials(simulation)) {
+        density = std::max(density, model.materials.list[static_cast<std::size_t>(a)].density);
+        for (const int b : sphere_materials(simulation))
+            stiffness = std::min(stiffness, model.materials.between(a, b).stiffness);
+    }
     const double inverse_mass_sum = 2.0 / (density * std::numbers::pi / 6.0 * d * d * d);
-    const double stiffness = 4.0 * upsilon / (sigma_per_sweep / n * inverse_mass_sum * h * h);
+    stiffness = std::min(stiffness, 4.0 * upsilon / (sigma_per_sweep / n * inverse_mass_sum * h * h));
     const double of_layer = 0.4 * model.gravity.norm() * h * h / (n * d);
     return text("contacts of two spheres are at most %.3g N/m stiff; a bed Z diameters high overlaps by %.2g Z d on "
                 "average, twice that at its bottom",

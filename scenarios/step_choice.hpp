@@ -21,7 +21,7 @@ struct StepChoice {
 StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation);
 
 /// Before the run: how soft `matched` makes contacts, k = 2.2 N_min/(W h²), and what overlap the bed will have for it,
-/// mean/d ≈ 0.4 Z g h²/(N_min d), Z its height in diameters. Empty for `projected`.
+/// mean/d ≈ 0.4 Z g h²/(N_min d), Z its height in diameters.
 std::string forecast_overlap(const Simulation& simulation);
 
 } // namespace talus

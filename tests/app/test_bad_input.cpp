@@ -28,6 +28,8 @@ const std::vector<Mistake> mistakes = {
     {"an unknown material", "material = \"glass\"\ncount", "material = \"steel\"\ncount", "\"steel\"",
         {"steel", "glass"}},
     {"a fill region too small", "count = 8", "count = 800", "region", {"800"}},
+    {"a key of another shape", "open = [", "hole_radius = 0.01\nopen = [", "hole_radius",
+        {"'disk'", "'box'", "'open'"}},
     {"a missing key", "count = 8\n", "", "[[fill]]", {"count"}},
     {"text that is not TOML", "count = 8", "count = = 8", "count", {}},
 };
@@ -95,6 +97,15 @@ TEST_CASE("a mistake in --set is told with what was given", "[app][input]")
     const Outcome outcome = place.run(beads_in_a_box, "--set " + option);
     check_complaint(place, outcome, "");
     CHECK_THAT(outcome.err, Contains(option));
+}
+
+TEST_CASE("of two walls with one name both places are told", "[app][input]")
+{
+    const Workplace place;
+    const std::string scene = beads_in_a_box + "[[wall]]\nname =   \"tray\"\nmaterial = \"glass\"\nshape = \"plane\"\n";
+    const Outcome outcome = place.run(scene);
+    check_complaint(place, outcome, blamed_line(scene, "name =   \"tray\""));
+    CHECK_THAT(outcome.err, Contains("'tray'") && Contains("the first is at " + blamed_line(scene, "name = \"tray\"")));
 }
 
 TEST_CASE("check refuses what run refuses", "[app][input]")

@@ -62,20 +62,20 @@ TEST_CASE("check says what a scene holds and needs, and writes nothing", "[app][
     CHECK_FALSE(place.exists("out"));
 }
 
-TEST_CASE("check tells the overlaps that a scene starts with", "[app][command line]")
+TEST_CASE("two fills in one place are refused, for they cannot both be there without overlap", "[app][command line]")
 {
-    // two single beads at the same place: each region has room for one only
+    // each region has room for one bead only
     const std::string one = R"(
 [[fill]]
 material = "glass"
 count = 1
 diameter = 0.01
 region = { shape = "box", min = [0.02, 0.02, 0.02], max = [0.0305, 0.0305, 0.0305] }
+spacing = 1.05
 )";
     const Workplace place;
     place.write("scene.toml", replaced(beads_in_a_box, "count = 8", "count = 0") + one + one);
     const Outcome outcome = place.talus("check scene.toml");
-    CHECK(outcome.exit_code == 0);
-    CHECK_THAT(
-        outcome.out, Contains("overlaps at the start: 1, the worst") && Contains("sphere 0") && Contains("sphere 1"));
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.err, Contains("the region holds 0 spheres"));
 }

@@ -24,6 +24,7 @@ material = "glass"
 count = 1
 diameter = 0.01
 region = { shape = "box", min = [-0.0051, -0.0051, 0.0], max = [0.0051, 0.0051, 0.0102] }
+spacing = 1.02
 velocity = [0.5, 0.0, 0.0]
 [[wall]]
 name = "table"

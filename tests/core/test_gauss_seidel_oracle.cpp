@@ -129,7 +129,7 @@ TEST_CASE(
     assemble_contacts(world.contacts, world.state, model);
     for (Motion& motion : world.state.motion) motion.velocity += model.time_step * model.gravity;
     const auto contacts = dense_contacts(world.contacts);
-    REQUIRE(contacts.size() > 25);
+    REQUIRE(contacts.size() > 20);
     REQUIRE(has_kind(world.contacts, ContactKind::open));
     REQUIRE(has_kind(world.contacts, ContactKind::resting));
     REQUIRE(has_kind(world.contacts, ContactKind::impact) == model.physics.restitution);

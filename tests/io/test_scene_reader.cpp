@@ -97,8 +97,8 @@ TEST_CASE("an unknown name of a choice is refused with the names and the nearest
           "'reference', not the string 'standart'; did you mean 'standard'?");
     CHECK(
         refusal_of("[time]\nstep = -1\n") == "scene.toml:2:8: 'step' must be a number above 0 [s], or 'auto', not -1");
-    CHECK(refusal_of("[[wall]]\nname = 'w'\nmaterial = 'a'\nopen = ['z*']\n") ==
-          "scene.toml:4:9: 'open' must be an array of 'x-', 'x+', 'y-', 'y+', 'z-' and 'z+', not the string 'z*'; did "
+    CHECK(refusal_of("[[wall]]\nname = 'w'\nmaterial = 'a'\nshape = 'box'\nmax = [1, 1, 1]\nopen = ['z*']\n") ==
+          "scene.toml:6:9: 'open' must be an array of 'x-', 'x+', 'y-', 'y+', 'z-' and 'z+', not the string 'z*'; did "
           "you mean 'z-'?");
 }
 
@@ -106,4 +106,34 @@ TEST_CASE("a key that must be there is asked for by name and meaning", "[scene_r
 {
     CHECK(refusal_of("[[fill]]\ncount = 3\n") == "scene.toml:1:1: [[fill]] needs the key 'material' (of the spheres)");
     CHECK(refusal_of("[[sensor]]\nname = 's'\n") == "scene.toml:1:1: [[sensor]] needs the key 'kind'");
+}
+
+TEST_CASE("a key of another shape is refused with the shapes that have it and the keys of this one", "[scene_reader]")
+{
+    CHECK(refusal_of("[[wall]]\nname = 'w'\nmaterial = 'a'\nhole_radius = 1\nshape = 'plane'\n") ==
+          "scene.toml:4:1: key 'hole_radius' in [[wall]] goes with shape 'disk', not 'plane', whose keys are 'name', "
+          "'shape', 'material', 'appear_at', 'remove_at', 'point' and 'normal'");
+    CHECK(
+        refusal_of("[[wall]]\nname = 'w'\nmaterial = 'a'\nradius = 1\n")
+            .starts_with("scene.toml:4:1: key 'radius' in [[wall]] goes with shape 'cylinder' or 'disk', not 'mesh'"));
+    CHECK(refusal_of("[[outlet]]\nregion = { max = [1, 1, 1], radius = 1 }\n") ==
+          "scene.toml:2:29: key 'radius' in [region] goes with shape 'cylinder', not 'box', whose keys are 'shape', "
+          "'min' and 'max'");
+    CHECK(refusal_of("[[fill]]\nmaterial = 'a'\ncount = 1\ndiameter = { value = 1, max = 2 }\n") ==
+          "scene.toml:4:25: key 'max' in [diameter] goes with distribution 'uniform', not 'constant', whose keys are "
+          "'distribution' and 'value'");
+    CHECK(refusal_of("[[fill]]\nspacing = 1.2\narrangement = 'random'\n")
+              .starts_with("scene.toml:2:1: key 'spacing' in [[fill]] goes with arrangement 'lattice', not 'random'"));
+    CHECK(refusal_of("[[sensor]]\nname = 's'\nkind = 'repose'\nfrom = 1.0\n") ==
+          "scene.toml:4:1: key 'from' in [[sensor]] goes with kind 'mass_flow', not 'repose', whose keys are 'name', "
+          "'kind', 'base', 'inner_radius' and 'outer_radius'");
+}
+
+TEST_CASE("a key that a shape must have is asked for where the table stands", "[scene_reader]")
+{
+    CHECK(refusal_of("seed = 1\n[[wall]]\nname = 'w'\nmaterial = 'a'\nshape = 'cylinder'\nheight = 1\n") ==
+          "scene.toml:2:1: [[wall]] needs the key 'radius' (of the tube or plate)");
+    CHECK(refusal_of("[[wall]]\nname = 'w'\nmaterial = 'a'\n") ==
+          "scene.toml:1:1: [[wall]] needs the key 'mesh' (an STL file, beside the scene file)");
+    CHECK(refusal_of("[[outlet]]\nregion = {}\n") == "scene.toml:2:10: [region] needs the key 'max' (upper corner)");
 }

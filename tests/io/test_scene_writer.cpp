@@ -29,3 +29,13 @@ TEST_CASE("every key of the defaults is in the resolved scene", "[scene_file]")
     CHECK(resolved.find("[world]\ngravity = [0.0, 0.0, -9.81]  # m/s2\nmin = [-inf, -inf, -inf]  # m\n") !=
           std::string::npos);
 }
+
+TEST_CASE("the resolved scene has no key that its shapes lack", "[scene_file]")
+{
+    scene::Scene scene;
+    scene.wall.emplace_back().shape = "plane";
+    const std::string resolved = resolved_scene(scene);
+    CHECK(resolved.find("\nnormal = ") != std::string::npos);
+    CHECK(resolved.find("radius") == std::string::npos);
+    CHECK(resolved.find("mesh") == std::string::npos);
+}

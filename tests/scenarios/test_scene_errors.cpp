@@ -108,15 +108,36 @@ const std::vector<Mistake> of_spheres = {
          s.fill[0].region.max = Vec3(0.019, 0.019, 0.019);
      },
         "fill[0].region",
-        "the region holds 1 spheres of this size clear of the walls, not 20; make it larger, or lower 'count' or "
+        "the region holds 1 spheres of this size clear of walls and earlier fills, not 20; make it larger, or lower "
+        "'count' or "
         "'spacing'"},
     {[](S& s) {
          s.fill[0].arrangement = "random";
          s.fill[0].region.max = Vec3(0.0101, 0.0101, 0.0101);
      },
         "fill[0].region",
-        "the region holds 1 spheres of this size clear of the walls, not 20; make it larger, lower 'count', or use "
+        "the region holds 1 spheres of this size clear of walls and earlier fills, not 20; make it larger, lower "
+        "'count', or use "
         "arrangement \"lattice\""},
+    {[](S& s) {
+         s.fill[0].count = 1;
+         s.fill[0].spacing = 1.0;
+         s.fill[0].region.max = Vec3(0.0101, 0.0101, 0.0101);
+         s.fill.push_back(s.fill[0]);
+     },
+        "fill[1].region",
+        "the region holds 0 spheres of this size clear of walls and earlier fills, not 1; make it larger, or lower "
+        "'count' or 'spacing'"},
+    {[](S& s) { s.fill[0].region.max.x() = 1100.0; }, "fill[0].region",
+        "the region is more than 100 000 spheres across"},
+    {[](S& s) { s.world.max.x() = 0.04; }, "fill[0].region",
+        "the region reaches out of the world; see [world] min and max"},
+    {[](S& s) {
+         s.pour.push_back(small_pour());
+         s.world.min.z() = -0.1;
+         s.world.max.z() = 0.17;
+     },
+        "pour[0].region", "the region reaches out of the world; see [world] min and max"},
     {[](S& s) {
          s.pour.push_back(small_pour());
          s.pour[0].region.max.z() = 0.155;

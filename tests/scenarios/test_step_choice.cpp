@@ -66,6 +66,24 @@ TEST_CASE("a sphere that leaves through an outlet falls until its upper face", "
     CHECK(choice.fastest_speed > std::sqrt(2 * 9.81 * 1.0));
 }
 
+TEST_CASE("where nothing is to land on a sphere falls to the end of the world", "[step_choice]")
+{
+    auto scene = small_scene();
+    SECTION("no walls")
+    {
+        scene.wall.clear();
+    }
+    SECTION("a slope that leads on downwards")
+    {
+        scene.wall[0].shape = "plane";
+        scene.wall[0].normal = Vec3(1, 0, 1);
+    }
+    scene.world.min = Vec3(-10, -10, -10);
+    const auto choice = choose_step(scene, build_scene(scene));
+    CHECK(choice.fastest_speed > std::sqrt(2 * 9.81 * 10.0));
+    CHECK(choice.fastest_speed < std::sqrt(2 * 9.81 * 10.11));
+}
+
 TEST_CASE("without gravity the speeds alone decide the step", "[step_choice]")
 {
     auto scene = small_scene();
@@ -108,9 +126,16 @@ TEST_CASE("the forecast tells the stiffness that the law has between two mean sp
     CHECK_THAT(simulation.overlap_forecast, Contains("1.3e-05 Z d"));
 }
 
-TEST_CASE("rigid contacts have no forecast of their overlap", "[step_choice]")
+TEST_CASE("a material softer than the step allows decides the stiffness of the forecast", "[step_choice]")
+{
+    auto scene = small_scene();
+    scene.contact[0].stiffness = 123.0;
+    CHECK_THAT(build_scene(scene).overlap_forecast, Contains("at most 123 N/m"));
+}
+
+TEST_CASE("rigid contacts are forecast to be rigid", "[step_choice]")
 {
     auto scene = small_scene();
     scene.solver.stabilisation = "projected";
-    CHECK(build_scene(scene).overlap_forecast.empty());
+    CHECK_THAT(build_scene(scene).overlap_forecast, Contains("rigid"));
 }

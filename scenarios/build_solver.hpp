@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/model.hpp"
+#include "scenarios/scene.hpp"
+
+namespace talus
+{
+
+/// The settings of the solver, names replaced by numbers, but for the push-out speed.
+/// @throws SceneError where the sweeps have no room
+SolverSettings build_solver(const scene::Scene& scene);
+
+/// The cap on the speed with which overlap is undone [m/s]. @param model its step is known too
+double push_out_speed(const scene::Scene& scene, const Model& model);
+
+} // namespace talus

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scenarios/build_world.hpp"
+
+#include "scenarios/build_region.hpp"
+#include "scenarios/build_spheres.hpp"
+#include "scenarios/scene_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+
+void find_diameters(Model& model, const scene::Scene& scene)
+{
+    double sum = 0.0, count = 0.0;
+    model.min_diameter = infinity;
+    const auto add = [&](const SizeDistribution& sizes, std::int64_t number) {
+        if (number == 0) return;
+        model.min_diameter = std::min(model.min_diameter, sizes.min);
+        model.max_diameter = std::max(model.max_diameter, sizes.max);
+        sum += sizes.mean() * static_cast<double>(number);
+        count += static_cast<double>(number);
+    };
+    for (std::size_t k = 0; k < scene.fill.size(); ++k)
+        add(build_sizes(scene.fill[k].diameter, key_path("fill", k, "diameter")), scene.fill[k].count);
+    for (std::size_t k = 0; k < scene.pour.size(); ++k)
+        add(build_sizes(scene.pour[k].diameter, key_path("pour", k, "diameter")), scene.pour[k].count);
+    if (count == 0.0)
+        throw SceneError("fill", "the scene has no spheres: give a [[fill]] or a [[pour]] with a count above 0");
+    model.mean_diameter = sum / count;
+}
+
+Box build_world(const scene::Scene& scene, const Model& model)
+{
+    if (!((scene.world.min.array() < scene.world.max.array()).all()))
+        throw SceneError("world.max", "the world is empty: every coordinate of 'min' must be below that of 'max'");
+    Box box;
+    for (const auto& wall : model.walls)
+        if (const Box b = bounds(wall.shape); !b.empty()) box.extend(b);
+    for (std::size_t k = 0; k < scene.fill.size(); ++k)
+        box.extend(build_region(scene.fill[k].region, key_path("fill", k, "region")).bounds());
+    for (std::size_t k = 0; k < scene.pour.size(); ++k)
+        box.extend(build_region(scene.pour[k].region, key_path("pour", k, "region")).bounds());
+    for (const auto& outlet : model.outlets) box.extend(outlet.bounds());
+    box = box.grown(5.0 * model.max_diameter);
+    for (int d = 0; d < 3; ++d) {
+        if (model.gravity[d] < 0.0) box.max[d] = infinity;
+        if (model.gravity[d] > 0.0) box.min[d] = -infinity;
+        if (std::isfinite(scene.world.min[d])) box.min[d] = scene.world.min[d];
+        if (std::isfinite(scene.world.max[d])) box.max[d] = scene.world.max[d];
+    }
+    return box;
+}
+
+} // namespace talus
