@@ -46,6 +46,29 @@ void mark_leaving(State& state, const std::vector<Region>& outlets)
             if (outlet.contains(state.position[i])) state.leaving[i] = 1;
 }
 
+StepReport make_report(std::size_t searched, const ContactNetwork& contacts, const ContactSurvey& survey,
+    const SolveReport& solve, const ContactOutcome& outcome, SphereSurvey spheres)
+{
+    const auto overlapping = static_cast<double>(survey.overlapping);
+    return {.sweeps = solve.sweeps,
+        .residual = solve.residual,
+        .converged = solve.converged,
+        .candidates = contacts.pairs.size() + contacts.wall_pairs.size(),
+        .contacts = survey.contacts,
+        .overlapping = survey.overlapping,
+        .worst_overlap = survey.worst_overlap,
+        .mean_overlap = survey.overlapping ? survey.overlap_sum / overlapping : 0.0,
+        .cone_violation = outcome.cone_violation,
+        .kinetic_energy = spheres.kinetic_energy,
+        .potential_energy = spheres.potential_energy,
+        .contact_energy = survey.contact_energy,
+        .fastest_speed = spheres.fastest_speed,
+        .long_moves = spheres.long_moves,
+        .searched = searched,
+        .wall_impulse = outcome.wall_impulse,
+        .incidents = std::move(spheres.incidents)};
+}
+
 } // namespace
 
 StepReport advance(State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer)
@@ -54,20 +77,18 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
     const auto enter = [&](Phase phase) {
         if (observer) observer(phase);
     };
-    StepReport report;
 
     // Which spheres and walls can touch during this step?
     enter(Phase::search);
     renumber_along_curve(state, contacts, model);
-    report.searched = update_candidates(contacts, state, model);
-    report.candidates = contacts.pairs.size() + contacts.wall_pairs.size();
+    const auto searched = update_candidates(contacts, state, model);
 
     // Which do, under which law, and with what impulse to begin with?
     enter(Phase::assembly);
     const auto survey = assemble_contacts(contacts, state, model);
 
-    // The velocity if nothing touched, v⁽¹⁾ = v⁽⁰⁾ + h M⁻¹ f, and with the impulses of the last step: v ← v + M⁻¹ Gᵀ
-    // λ⁰.
+    // The velocity if nothing touched: v⁽¹⁾ = v⁽⁰⁾ + h M⁻¹ f.
+    // Then the impulses of the last step: v ← v + M⁻¹ Gᵀ λ⁰.
     enter(Phase::warm_start);
     add_gravity(state.motion, model.gravity, h);
     const double warm_size = apply_warm_start(contacts, state.motion, model.physics);
@@ -82,26 +103,11 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
     if (model.solver.stabilisation == Stabilisation::projected) project_positions(contacts, state, projected_share);
     state.time = static_cast<double>(++state.steps) * h;
 
+    // What there is to tell, and what the next step begins with.
     enter(Phase::report);
     mark_leaving(state, model.outlets);
     const auto outcome = carry_impulses(contacts, state);
-    auto spheres = survey_spheres(state, model);
-    report.sweeps = solve.sweeps;
-    report.residual = solve.residual;
-    report.converged = solve.converged;
-    report.contacts = survey.contacts;
-    report.overlapping = survey.overlapping;
-    report.worst_overlap = survey.worst_overlap;
-    report.mean_overlap = survey.overlapping ? survey.overlap_sum / static_cast<double>(survey.overlapping) : 0.0;
-    report.contact_energy = survey.contact_energy;
-    report.cone_violation = outcome.cone_violation;
-    report.wall_impulse = outcome.wall_impulse;
-    report.kinetic_energy = spheres.kinetic_energy;
-    report.potential_energy = spheres.potential_energy;
-    report.fastest_speed = spheres.fastest_speed;
-    report.long_moves = spheres.long_moves;
-    report.incidents = std::move(spheres.incidents);
-    return report;
+    return make_report(searched, contacts, survey, solve, outcome, survey_spheres(state, model));
 }
 
 } // namespace talus
