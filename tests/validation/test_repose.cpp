@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Angle of repose of the peers' pile, with their geometry and their fit.
+#include "core/statistics.hpp"
 #include "run_scene.hpp"
 
 #include <catch2/catch.hpp>
@@ -18,14 +19,19 @@ TEST_CASE("a pile of spheres without rolling resistance rests at 22 degrees", "[
     CHECK(angle.value == Approx(22.0).margin(2.0));
 }
 
-TEST_CASE("rolling resistance of 0.1 makes the pile rest at 26 to 29 degrees", "[repose][slow]")
+TEST_CASE("rolling resistance of 0.1 raises the pile to 28 degrees", "[repose][slow]")
 {
-    // LAMMPS 26.8 (sds), LIGGGHTS 28.1 (epsd2).
-    auto s = open_scene("funnel_pile", {"contact.glass-glass.rolling_friction=0.1"});
-    run_until(s, 5.0);
-    const auto angle = result(s, "heap", "angle");
-    WARN("rolling resistance 0.1: " << angle.value << " +- " << angle.spread << " degrees, " << s.outflow.count
-                                    << " spilt");
-    CHECK(angle.value >= 26.0);
-    CHECK(angle.value <= 29.0);
+    // LIGGGHTS 3.8 (epsd2, E = 5e6 Pa) with this geometry and this fit: 28.2, 28.7, 27.7, 28.6, 28.3 degrees, and
+    // 22.5 on average without rolling resistance; LAMMPS (sds) 26.8. Seeds scatter by 0.8 degrees, hence three of them;
+    // 2 degrees of tolerance, as for the pile without.
+    MeanAndError angles;
+    for (const auto* seed : {"1", "2", "3"}) {
+        auto s = open_scene("funnel_pile", {"contact.glass-glass.rolling_friction=0.1", std::string("seed=") + seed});
+        run_until(s, 5.0);
+        const auto angle = result(s, "heap", "angle");
+        WARN("rolling resistance 0.1, seed " << seed << ": " << angle.value << " +- " << angle.spread << " degrees, "
+                                             << s.outflow.count << " spilt");
+        angles.add(angle.value);
+    }
+    CHECK(angles.mean() == Approx(28.3).margin(2.0));
 }
