@@ -75,5 +75,7 @@ TEST_CASE("the discharge grows with the 5/2 power of the outlet less 1.4 grains"
         line.add(std::log(outlet - 1.4 * 0.01), std::log(flow.value));
     }
     WARN("exponent " << line.slope());
-    CHECK(line.slope() == Approx(2.5).margin(0.1));
+    // The flow through the narrowest is known to 4 % from one run, the exponent then to 0.08; twice that and the 0.05
+    // by which a k of 1.3 instead of 1.4 would change it.
+    CHECK(line.slope() == Approx(2.5).margin(0.2));
 }
