@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/region.hpp"
 
+#include "core/disk_extent.hpp"
+
 #include <cmath>
 #include <numbers>
 
@@ -18,8 +20,7 @@ bool Region::contains(const Vec3& x, double ball_radius) const
 Box Region::bounds() const
 {
     if (shape == Shape::box) return box;
-    // Half extent of a disk of this radius at right angles to the axis, along each coordinate.
-    const Vec3 half = radius * (Vec3::Ones() - axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+    const Vec3 half = radius * disk_half_extent(axis);
     Box result;
     for (const Vec3& end : {base, Vec3(base + height * axis)}) result.extend(Box{end - half, end + half});
     return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/wall.hpp"
 
+#include "core/disk_extent.hpp"
 #include "core/triangle_tree.hpp"
 
 #include <algorithm>
@@ -117,7 +118,7 @@ Box bounds_of(const Plane&)
 /// Box around the circles of radius r0 and r1 at the two ends of an axis.
 Box bounds_of_ends(const Vec3& base, const Vec3& axis, double height, double r0, double r1)
 {
-    const Vec3 half = (Vec3::Ones() - axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+    const Vec3 half = disk_half_extent(axis);
     const Vec3 top = base + height * axis;
     return Box{base - r0 * half, base + r0 * half}.extend(Box{top - r1 * half, top + r1 * half});
 }
