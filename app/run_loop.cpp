@@ -73,6 +73,8 @@ StepReport RunLoop::make_step()
     StepReport report = step(simulation_, [this](Phase phase) { clock_.begin(phase); });
     clock_.begin(RunPhase::output);
     statistics_.add(report, simulation_);
+    if (report.incidents.empty())
+        for (const auto& sensor : simulation_.sensors) sensor->watch(snapshot(simulation_, report));
     return report;
 }
 
@@ -82,7 +84,7 @@ void RunLoop::write_what_is_due(const StepReport& report)
     const double time = simulation_.state.time;
     if (standing_walls(simulation_.model, time) != standing_) write_walls();
     if (metrics_schedule_.due(time)) {
-        sample_sensors();
+        sample_sensors(report);
         write_metrics(report);
     }
     if (contact_schedule_.due(time)) write_contacts();
@@ -99,15 +101,15 @@ void RunLoop::write_the_rest(const StepReport& report)
     if (steps == 0) return; // contacts and metrics speak of a step
     if (last_contacts_ != steps && report.incidents.empty()) write_contacts();
     if (last_metrics_ != steps) {
-        if (report.incidents.empty()) sample_sensors();
+        if (report.incidents.empty()) sample_sensors(report);
         write_metrics(report);
     }
 }
 
-void RunLoop::sample_sensors()
+void RunLoop::sample_sensors(const StepReport& report)
 {
     clock_.begin(RunPhase::sensors);
-    for (const auto& sensor : simulation_.sensors) sensor->sample(simulation_.state, simulation_.model);
+    for (const auto& sensor : simulation_.sensors) sensor->sample(snapshot(simulation_, report));
     clock_.begin(RunPhase::output);
 }
 

@@ -39,7 +39,7 @@ private:
     void write_what_is_due(const StepReport& report);
     void write_the_rest(const StepReport& report);
 
-    void sample_sensors();
+    void sample_sensors(const StepReport& report);
     void write_metrics(const StepReport& report);
     void write_particles();
     void write_contacts();

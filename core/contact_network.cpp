@@ -34,4 +34,15 @@ void ContactArrays::resize(std::size_t slots, std::size_t tiles, bool with_rolli
     count.assign(tiles, 0);
 }
 
+void ContactNetwork::persist(Archive& archive)
+{
+    archive(listed_box, tiles, pairs, pairs_of_tile, pair_of_sphere, first_pair, pair_count, pair_carried);
+    archive(wall_pairs, wall_pairs_of_tile, first_wall_pair, wall_pair_count, wall_slots_of_tile, patches, wall_carried,
+        wall_carried_normal);
+    if (!archive.reading()) return;
+    const bool with_rolling = !pair_carried.rolling_impulse.empty() || !wall_carried.rolling_impulse.empty();
+    sphere_contacts.resize(pairs.size(), tiles.count(), with_rolling);
+    wall_contacts.resize(patches.size(), tiles.count(), with_rolling);
+}
+
 } // namespace talus

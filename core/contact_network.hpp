@@ -19,6 +19,7 @@ struct CarriedImpulses {
 
     CarriedImpulses() = default;
     CarriedImpulses(std::size_t slots, bool with_rolling);
+    void persist(Archive& archive) { archive(impulse, rolling_impulse, touched); }
     void clear(std::size_t slot);
     void copy(std::size_t slot, const CarriedImpulses& from, std::size_t from_slot, bool opposite = false);
 };
@@ -71,6 +72,9 @@ struct ContactNetwork {
 
     ContactArrays sphere_contacts; ///< tile t from pairs_of_tile[t] on
     ContactArrays wall_contacts;   ///< tile t from wall_slots_of_tile[t] on
+
+    /// All that the next step begins with; the contacts of the last one are not among it.
+    void persist(Archive& archive);
 };
 
 } // namespace talus

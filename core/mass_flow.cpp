@@ -19,8 +19,9 @@ MassFlow::MassFlow(std::string sensor_name, const Vec3& point, const Vec3& norma
 {
 }
 
-void MassFlow::sample(const State& state, const Model&)
+void MassFlow::sample(const Snapshot& now)
 {
+    const State& state = now.state;
     double behind = 0.0;
     std::int64_t behind_count = 0;
     for (std::size_t i = 0; i < state.count(); ++i) {

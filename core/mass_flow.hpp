@@ -17,9 +17,10 @@ public:
     /// @param normal unit, the direction of the flow; @param from, to the steady window [s]
     MassFlow(std::string name, const Vec3& point, const Vec3& normal, double from, double to);
 
-    void sample(const State& state, const Model& model) override;
+    void sample(const Snapshot& now) override;
     std::vector<Measurement> latest() const override;
     std::vector<Measurement> results() const override;
+    void persist(Archive& archive) override { archive(samples_); }
 
 private:
     struct Sample {

@@ -28,6 +28,7 @@ struct ModelledPhysics {
     bool friction = false;
     bool rolling = false;
     bool restitution = false;
+    bool wall_loads = false; ///< a sensor asks for them
 };
 
 /// The constant part of a simulation.

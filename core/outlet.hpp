@@ -12,6 +12,8 @@ namespace talus
 struct Outflow {
     std::int64_t count = 0;
     double mass = 0.0; ///< [kg]
+
+    void persist(Archive& archive) { archive(count, mass); }
 };
 
 /// Takes the spheres that are leaving out of the state and adds them to the outflow.

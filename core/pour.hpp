@@ -36,6 +36,8 @@ struct Pour {
     std::int64_t refused = 0;      ///< times that no free place was found and the sphere had to wait
     double pending_diameter = 0.0; ///< of the sphere that waits; 0: none drawn
     Random random;
+
+    void persist(Archive& archive) { archive(poured, refused, pending_diameter, random); }
 };
 
 /// How many spheres should have entered by this time: the first at the start, then `rate` a second, at most `count`.

@@ -75,10 +75,10 @@ Repose::Repose(std::string sensor_name, const Vec3& base, double inner_radius, d
 {
 }
 
-void Repose::sample(const State& state, const Model& model)
+void Repose::sample(const Snapshot& now)
 {
-    const Vec3 up = -model.gravity.normalized();
-    const auto surface = find_surface(state, base_, up, model.mean_diameter);
+    const Vec3 up = -now.model.gravity.normalized();
+    const auto surface = find_surface(now.state, base_, up, now.model.mean_diameter);
     apex_ = 0.0;
     for (std::size_t ring = 0; ring < surface.top.size(); ++ring) {
         const double mean = surface.ring_mean(ring, 0, sectors);

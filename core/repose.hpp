@@ -18,9 +18,10 @@ public:
     /// @param base centre of the heap's floor [m]; @param outer_radius 0: choose the rings by height
     Repose(std::string name, const Vec3& base, double inner_radius, double outer_radius);
 
-    void sample(const State& state, const Model& model) override;
+    void sample(const Snapshot& now) override;
     std::vector<Measurement> latest() const override;
     std::vector<Measurement> results() const override;
+    void persist(Archive& archive) override { archive(angle_, spread_, apex_); }
 
 private:
     static constexpr double nothing_yet = std::numeric_limits<double>::quiet_NaN();

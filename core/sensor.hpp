@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/archive.hpp"
+#include "core/contact_network.hpp"
 #include "core/model.hpp"
 #include "core/state.hpp"
+#include "core/time_step.hpp"
 
 #include <string>
 #include <vector>
@@ -18,6 +21,15 @@ struct Measurement {
     std::string unit;
 };
 
+/// What a sensor may look at after a step: the spheres as they are, the contacts that the step solved, and its report.
+/// They belong together: contacts name spheres by storage index.
+struct Snapshot {
+    const State& state;
+    const Model& model;
+    const ContactNetwork& contacts;
+    const StepReport& report;
+};
+
 /// Something that a scene measures while it runs. It reads the state and never changes it.
 class Sensor
 {
@@ -29,14 +41,20 @@ public:
 
     const std::string name;
 
+    /// Called after every step, for what must be summed over all of them.
+    virtual void watch(const Snapshot&) {}
+
     /// Takes a sample at the state's time. The run loop calls it at every metrics interval.
-    virtual void sample(const State& state, const Model& model) = 0;
+    virtual void sample(const Snapshot& now) = 0;
 
     /// The latest sample, as named values with units (spread 0); the same names and order at every call.
     virtual std::vector<Measurement> latest() const = 0;
 
     /// The results over all samples so far.
     virtual std::vector<Measurement> results() const = 0;
+
+    /// Stores or puts back what the sensor has seen so far, for checkpoints.
+    virtual void persist(Archive& archive) = 0;
 };
 
 } // namespace talus

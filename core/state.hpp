@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/archive.hpp"
 #include "core/vector.hpp"
 
 #include <cstdint>
@@ -18,6 +19,8 @@ struct alignas(64) Motion {
     double inverse_mass = 0.0;        ///< 1/m [1/kg]
     Vec3 rim_velocity = Vec3::Zero(); ///< a = r ω [m/s]
     double radius = 0.0;              ///< r [m]
+
+    void persist(Archive& archive) { archive(velocity, inverse_mass, rim_velocity, radius); }
 };
 static_assert(sizeof(Motion) == 64);
 
@@ -43,6 +46,11 @@ struct State {
     double radius(std::size_t i) const { return motion[i].radius; }
     double mass(std::size_t i) const { return 1.0 / motion[i].inverse_mass; }
     Vec3 angular_velocity(std::size_t i) const { return motion[i].rim_velocity / motion[i].radius; }
+
+    void persist(Archive& archive)
+    {
+        archive(position, motion, material, id, last_wall, leaving, time, steps, next_id, inserted_mass);
+    }
 };
 
 /// Puts a solid sphere into the state and returns its storage index (the last).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/archive.hpp"
 #include "core/vector.hpp"
 
 #include <array>
@@ -24,6 +25,7 @@ struct Tiles {
     std::array<std::uint32_t, colors + 1> color_first{}; ///< tiles of colour c are [color_first[c], color_first[c + 1])
 
     std::size_t count() const { return first.size() - 1; }
+    void persist(Archive& archive) { archive(spheres, first, color_first); }
 };
 
 /// Sorts the spheres at these places into tiles; empty tiles are left out.

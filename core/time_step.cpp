@@ -47,7 +47,7 @@ void mark_leaving(State& state, const std::vector<Region>& outlets)
 }
 
 StepReport make_report(std::size_t searched, const ContactNetwork& contacts, const ContactSurvey& survey,
-    const SolveReport& solve, const ContactOutcome& outcome, SphereSurvey spheres)
+    const SolveReport& solve, const ContactOutcome& outcome, std::vector<WallLoad> loads, SphereSurvey spheres)
 {
     const auto overlapping = static_cast<double>(survey.overlapping);
     return {.sweeps = solve.sweeps,
@@ -66,6 +66,7 @@ StepReport make_report(std::size_t searched, const ContactNetwork& contacts, con
         .long_moves = spheres.long_moves,
         .searched = searched,
         .wall_impulse = outcome.wall_impulse,
+        .wall_loads = std::move(loads),
         .incidents = std::move(spheres.incidents)};
 }
 
@@ -97,6 +98,8 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
     enter(Phase::sweeps);
     const auto solve = solve_contacts(contacts, state.motion, model.physics, model.solver, warm_size);
 
+    auto loads = model.physics.wall_loads ? wall_loads(contacts, state, model.walls.size()) : std::vector<WallLoad>{};
+
     // Positions with the new velocity: x ← x + h v.
     enter(Phase::positions);
     move_spheres(state, h);
@@ -107,7 +110,7 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
     enter(Phase::report);
     mark_leaving(state, model.outlets);
     const auto outcome = carry_impulses(contacts, state);
-    return make_report(searched, contacts, survey, solve, outcome, survey_spheres(state, model));
+    return make_report(searched, contacts, survey, solve, outcome, std::move(loads), survey_spheres(state, model));
 }
 
 } // namespace talus

@@ -5,6 +5,7 @@
 #include "core/diagnostics.hpp"
 #include "core/model.hpp"
 #include "core/state.hpp"
+#include "core/wall_load.hpp"
 
 #include <functional>
 #include <vector>
@@ -35,6 +36,7 @@ struct StepReport {
     std::size_t long_moves = 0;       ///< spheres that moved more than 0.1 d in the step
     std::size_t searched = 0;         ///< spheres whose neighbours were searched anew
     Vec3 wall_impulse = Vec3::Zero(); ///< Σ λ over all wall contacts, on the spheres [N s]
+    std::vector<WallLoad> wall_loads; ///< by wall; empty unless a sensor asks for them
     std::vector<Incident> incidents;  ///< empty in every healthy step
 };
 

@@ -13,6 +13,12 @@ constexpr std::int64_t outlet_interval =
 
 } // namespace
 
+void Simulation::persist(Archive& archive)
+{
+    archive(state, contacts, pours, outflow);
+    for (const auto& sensor : sensors) archive(*sensor);
+}
+
 StepReport step(Simulation& simulation, const PhaseObserver& observer)
 {
     for (auto& source : simulation.pours) pour(source, simulation.state, simulation.model);

@@ -28,11 +28,20 @@ struct Simulation {
     std::string step_explanation;  ///< one line: where the time step comes from
     std::string model_explanation; ///< one line: what the run models and what it leaves out
     std::string overlap_forecast;  ///< one line: the stiffness cap of `matched` and the overlap that it implies
+
+    /// All that changes in a run; the rest follows from the scene.
+    void persist(Archive& archive);
 };
 
 /// Lets poured spheres in, takes away (every tenth step) the spheres that have been in an outlet, and advances by one
 /// step. Contacts and spheres belong together until the next call.
 StepReport step(Simulation& simulation, const PhaseObserver& observer = {});
+
+/// What sensors look at after a step.
+inline Snapshot snapshot(const Simulation& simulation, const StepReport& report)
+{
+    return {simulation.state, simulation.model, simulation.contacts, report};
+}
 
 /// Overlaps of the spheres as they lie: how many contacts, and the worst of them.
 struct OverlapCheck {

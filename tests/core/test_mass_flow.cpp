@@ -2,12 +2,14 @@
 #include "core/mass_flow.hpp"
 #include "core/outlet.hpp"
 #include "core/region.hpp"
+#include "tests/support/sampling.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 
 using namespace talus;
+using talus::test::sample;
 
 namespace
 {
@@ -43,7 +45,7 @@ void sample_until(MassFlow& sensor, Stream& stream, double end, double interval 
 {
     for (int k = 0; k * interval <= end; ++k) {
         stream.move_to(k * interval);
-        sensor.sample(stream.state, Model{});
+        sample(sensor, stream.state, Model{});
     }
 }
 
@@ -114,10 +116,10 @@ TEST_CASE("a sphere that left through an outlet has passed", "[mass_flow]")
     Stream stream(even_passages(100.0, 0.0, 1.0));
     auto sensor = downwards(0.0, infinity);
     stream.move_to(0.0);
-    sensor.sample(stream.state, Model{});
+    sample(sensor, stream.state, Model{});
     CHECK(sensor.latest()[1].value == 0.0);
     stream.move_to(0.5);
-    sensor.sample(stream.state, Model{});
+    sample(sensor, stream.state, Model{});
     CHECK(sensor.latest()[1].value == 50.0);
     CHECK(sensor.latest()[0].value == Approx(50.0 * stream.mass()));
 
@@ -128,7 +130,7 @@ TEST_CASE("a sphere that left through an outlet has passed", "[mass_flow]")
     model.max_diameter = 2.0 * radius;
     empty_outlets(outflow, stream.state, contacts, model);
     stream.move_to(0.7);
-    sensor.sample(stream.state, Model{});
+    sample(sensor, stream.state, Model{});
     CHECK(sensor.latest()[1].value == 70.0);
     CHECK(sensor.latest()[0].value == Approx(70.0 * stream.mass()));
 }
@@ -138,11 +140,11 @@ TEST_CASE("a sphere that is poured in behind the plane has not passed", "[mass_f
     Stream stream(even_passages(100.0, 0.0, 1.0));
     auto sensor = downwards(0.0, infinity);
     stream.move_to(0.5);
-    sensor.sample(stream.state, Model{});
+    sample(sensor, stream.state, Model{});
     stream.passage.push_back(9.0);
     add_sphere(stream.state, Vec3::Zero(), radius, density, 0);
     stream.move_to(0.6);
-    sensor.sample(stream.state, Model{});
+    sample(sensor, stream.state, Model{});
     CHECK(sensor.latest()[1].value == 60.0);
 }
 

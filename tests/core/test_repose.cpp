@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/repose.hpp"
+#include "tests/support/sampling.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -7,6 +8,7 @@
 #include <numbers>
 
 using namespace talus;
+using talus::test::sample;
 
 namespace
 {
@@ -42,7 +44,7 @@ struct Heap {
     Measurement angle(double inner = 0.0, double outer = 0.0) const
     {
         Repose sensor("heap", base, inner, outer);
-        sensor.sample(state, model);
+        sample(sensor, state, model);
         return sensor.results()[0];
     }
 };
@@ -111,7 +113,7 @@ TEST_CASE("the apex is the height of the heap over its base", "[repose]")
 {
     Repose sensor("heap", Vec3(0.3, -0.2, 0.1), 0.0, 0.0);
     const Heap heap(cone(25.0, 0.1));
-    sensor.sample(heap.state, heap.model);
+    sample(sensor, heap.state, heap.model);
     const auto apex = sensor.latest()[1];
     CHECK(apex.name == "apex");
     CHECK(apex.value == Approx(0.1).margin(0.5 * diameter));
@@ -132,9 +134,9 @@ TEST_CASE("where there is no heap there is no angle", "[repose][degenerate]")
     model.mean_diameter = diameter;
     State state;
     Repose sensor("heap", Vec3::Zero(), 0.0, 0.0);
-    sensor.sample(state, model);
+    sample(sensor, state, model);
     CHECK(std::isnan(sensor.results()[0].value));
     add_sphere(state, Vec3(0.05, 0, 0.005), 0.005, 2500.0, 0);
-    sensor.sample(state, model);
+    sample(sensor, state, model);
     CHECK(std::isnan(sensor.results()[0].value));
 }

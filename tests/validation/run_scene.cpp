@@ -27,8 +27,9 @@ void run_until(Simulation& simulation, double time)
     while (simulation.state.time < time) {
         const auto report = step(simulation);
         REQUIRE(report.incidents.empty());
+        for (auto& sensor : simulation.sensors) sensor->watch(snapshot(simulation, report));
         if (simulation.state.time < next_sample) continue;
-        for (auto& sensor : simulation.sensors) sensor->sample(simulation.state, simulation.model);
+        for (auto& sensor : simulation.sensors) sensor->sample(snapshot(simulation, report));
         next_sample += sample_interval;
     }
 }
