@@ -14,10 +14,13 @@ void EnergyBalance::add(const StepReport& report, bool same_spheres)
     std::optional<double> total;
     if (motion_energy_) total = *motion_energy_ + report.contact_energy;
     if (total && total_energy_) {
-        lost_ += std::max(0.0, *total_energy_ - *total);
-        gained_ += std::max(0.0, *total - *total_energy_);
+        const double rise = *total - *total_energy_ - work_;
+        lost_ += std::max(0.0, -rise);
+        gained_ += std::max(0.0, rise);
     }
     total_energy_ = total;
+    work_ = report.wall_work + report.gravity_work;
+    put_in_ += work_;
     motion_energy_ = report.kinetic_energy + report.potential_energy;
 }
 

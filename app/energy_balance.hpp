@@ -8,8 +8,9 @@
 namespace talus
 {
 
-/// Falls and rises of the total energy from step to step: kinetic + potential + stored in the contacts. Only steps with
-/// the same spheres are compared; what pours and outlets carry in and out is not a change of theirs.
+/// Falls and rises of the total energy from step to step: kinetic + potential + stored in the contacts, less what
+/// moving walls, and gravity along periodic axes, put in. Only steps with the same spheres are compared; what pours and
+/// outlets carry in and out is not a change of theirs.
 class EnergyBalance
 {
 public:
@@ -18,9 +19,11 @@ public:
 
     double lost() const { return lost_; }     ///< sum of the falls [J]
     double gained() const { return gained_; } ///< sum of the rises [J]
+    double put_in() const { return put_in_; } ///< work of moving walls, and of gravity along periodic axes [J]
 
 private:
-    double lost_ = 0.0, gained_ = 0.0;
+    double lost_ = 0.0, gained_ = 0.0, put_in_ = 0.0;
+    double work_ = 0.0;                   ///< put in by the last step
     std::optional<double> motion_energy_; ///< kinetic + potential at the end of the last step
     std::optional<double> total_energy_;  ///< at the end of the step before it
 };

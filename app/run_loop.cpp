@@ -89,6 +89,7 @@ void RunLoop::write_what_is_due(const StepReport& report)
     }
     if (contact_schedule_.due(time)) write_contacts();
     if (particle_schedule_.due(time)) {
+        if (simulation_.model.physics.moving_walls) write_walls();
         write_particles();
         progress_.frame_written(simulation_, report, clock_.wall());
     }
@@ -97,7 +98,10 @@ void RunLoop::write_what_is_due(const StepReport& report)
 void RunLoop::write_the_rest(const StepReport& report)
 {
     const std::int64_t steps = simulation_.state.steps;
-    if (last_particles_ != steps) write_particles();
+    if (last_particles_ != steps) {
+        if (simulation_.model.physics.moving_walls) write_walls();
+        write_particles();
+    }
     if (steps == 0) return; // contacts and metrics speak of a step
     if (last_contacts_ != steps && report.incidents.empty()) write_contacts();
     if (last_metrics_ != steps) {

@@ -14,6 +14,7 @@ constexpr double skin_per_draw = 0.2; ///< … and this share of what it is draw
 constexpr double horizon_steps = 20;  ///< steps along its way for which a listed box is drawn out …
 constexpr double longest_draw = 1.0;  ///< … but by this many smallest diameters at most
 constexpr double worn_share = 0.25; ///< a sphere that has used up so much of its skin is searched for along with others
+constexpr double wall_skin = 0.2;   ///< how far a wall may move before it is searched for anew, in smallest diameters
 constexpr double few = 0.3;         ///< share of the spheres up to which they are searched for alone
 
 /// Room around the centre of sphere i that its surface takes, with half the reach of its contacts.
@@ -67,8 +68,10 @@ struct Entries {
 double tile_edge(const std::vector<PairEntry>& pairs, const State& state, const Model& model)
 {
     double farthest = 0.0;
-    for (const auto& e : pairs)
-        farthest = std::max(farthest, (state.position[e.pair.a] - state.position[e.pair.b]).lpNorm<Eigen::Infinity>());
+    for (const auto& e : pairs) {
+        const Vec3 apart = model.periodicity.nearest_image(state.position[e.pair.a] - state.position[e.pair.b]);
+        farthest = std::max(farthest, apart.lpNorm<Eigen::Infinity>());
+    }
     return std::max(4.0 * model.max_diameter, 2.001 * farthest);
 }
 
@@ -161,6 +164,11 @@ void lay_down_walls(ContactNetwork& network, Entries& entries, std::size_t spher
     std::vector<WallEntry> sorted(entries.walls.size());
     auto place = network.first_wall_pair;
     for (const auto& e : entries.walls) sorted[place[e.sphere]++] = e;
+    for (std::size_t i = 0; i < spheres; ++i) {
+        const auto begin = sorted.begin() + network.first_wall_pair[i];
+        std::sort(
+            begin, begin + network.wall_pair_count[i], [](const auto& p, const auto& q) { return p.wall < q.wall; });
+    }
 
     const auto old_pairs = std::move(network.wall_pairs);
     const auto old = std::move(network.wall_carried);
@@ -194,11 +202,10 @@ void lay_down_walls(ContactNetwork& network, Entries& entries, std::size_t spher
 /// Sorts spheres and entries into tiles.
 void lay_down(ContactNetwork& network, Entries& entries, const State& state, const Model& model)
 {
-    network.tiles = make_tiles(state.position, tile_edge(entries.pairs, state, model));
+    network.tiles = make_tiles(state.position, tile_edge(entries.pairs, state, model), model.periodicity);
     lay_down_pairs(network, entries.pairs, state.count(), model.physics.rolling);
     lay_down_walls(network, entries, state.count(), model.physics.rolling);
-    network.sphere_contacts.resize(network.pairs.size(), network.tiles.count(), model.physics.rolling);
-    network.wall_contacts.resize(network.patches.size(), network.tiles.count(), model.physics.rolling);
+    network.resize_contacts(model.physics);
 }
 
 /// The spheres whose listed box no longer serves; when there are any, those whose skin is nearly used up too.
@@ -210,7 +217,8 @@ std::vector<std::int32_t> spheres_to_search(const ContactNetwork& network, const
 #pragma omp parallel for schedule(static) reduction(|| : any_left) if (count > 1000)
     for (std::int64_t i = 0; i < count; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        const Box needed = needed_box(state, model, k);
+        const Vec3 shift = model.periodicity.shift_towards(state.position[k], network.listed_box[k].center());
+        const Box needed = needed_box(state, model, k).shifted(shift);
         const bool left = !network.listed_box[k].contains(needed);
         const bool worn = !network.listed_box[k].contains(needed.grown((1.0 - worn_share) * skin * model.min_diameter));
         wear[k] = left || worn;
@@ -249,7 +257,8 @@ bool can_touch(const ContactNetwork& network, const State& state, const Model& m
     const double ra = needed_radius(state, model, static_cast<std::size_t>(pair.a));
     const double rb = needed_radius(state, model, static_cast<std::size_t>(pair.b));
     const Box a = network.listed_box[pair.a].grown(-ra);
-    const Box b = network.listed_box[pair.b].grown(-rb);
+    const Box& box_b = network.listed_box[pair.b];
+    const Box b = box_b.grown(-rb).shifted(model.periodicity.shift_towards(box_b.center(), a.center()));
     const Vec3 apart = (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0);
     return apart.squaredNorm() <= (ra + rb) * (ra + rb);
 }
@@ -258,7 +267,8 @@ void search_spheres(Entries& entries, const ContactNetwork& network, const State
     const std::vector<std::int32_t>& movers)
 {
     const bool alone = static_cast<double>(movers.size()) < few * static_cast<double>(network.listed_box.size());
-    const auto found = alone ? find_box_pairs(network.listed_box, movers) : find_box_pairs(network.listed_box);
+    const auto found = alone ? find_box_pairs(network.listed_box, movers, model.periodicity)
+                             : find_box_pairs(network.listed_box, model.periodicity);
     for (const auto& pair : found)
         if (can_touch(network, state, model, pair))
             entries.pairs.push_back({pair, {find_old_pair(network, pair), false}});
@@ -271,43 +281,102 @@ void search_spheres(Entries& entries, const ContactNetwork& network, const State
             entries.pairs.push_back({network.pairs[k], {static_cast<std::int32_t>(k), false}});
 }
 
-void search_walls(
-    Entries& entries, const ContactNetwork& network, const Model& model, const std::vector<std::int32_t>& movers)
+/// The walls that have moved so far since they were listed, or will in this step, that their lists may miss a sphere.
+std::vector<std::uint8_t> walls_to_search(
+    const ContactNetwork& network, const Model& model, const std::vector<PlacedWall>& walls)
 {
-    std::vector<std::uint8_t> moves(network.listed_box.size(), 0);
-    for (const auto i : movers) {
-        moves[i] = 1;
-        for (std::size_t w = 0; w < model.walls.size(); ++w) {
-            const auto first = static_cast<std::uint32_t>(entries.patches.size());
-            // A wall does not come half of the way, as another sphere does.
-            const Box room = network.listed_box[i].grown(0.5 * open_contact_reach * model.min_diameter);
-            patches_near(model.walls[w].shape, room, entries.patches);
-            const auto patches = static_cast<std::uint32_t>(entries.patches.size()) - first;
-            const auto wall = static_cast<std::int32_t>(w);
-            if (patches > 0) entries.walls.push_back({i, wall, first, patches, find_old_wall_pair(network, i, wall)});
+    std::vector<std::uint8_t> stale(walls.size(), 0);
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+        if (!walls[w].moves()) continue;
+        if (!network.listed_pose.empty()) {
+            const double way = longest_way(network.listed_pose[w], walls[w].pose(), network.listed_around);
+            const double ahead = closing_horizon * model.time_step * walls[w].fastest(network.listed_around);
+            if (way + ahead <= wall_skin * model.min_diameter) continue;
+        }
+        stale[w] = 1;
+    }
+    return stale;
+}
+
+/// Who lies near which wall, written into the entries sphere by sphere.
+class WallSearch
+{
+public:
+    WallSearch(
+        Entries& entries, const ContactNetwork& network, const Model& model, const std::vector<PlacedWall>& walls)
+        : entries_(entries), network_(network), walls_(walls)
+    {
+        // A wall does not come half of the way, as another sphere does.
+        const double reach = 0.5 * open_contact_reach * model.min_diameter;
+        for (const auto& wall : walls) {
+            // One skin that it may have moved already, where a sphere is searched for alone, and one for the future.
+            const double ahead = closing_horizon * model.time_step * wall.fastest(network.listed_around);
+            margin_.push_back(wall.moves() ? reach + 2.0 * wall_skin * model.min_diameter + ahead : reach);
         }
     }
-    for (std::size_t k = 0; k < network.wall_pairs.size(); ++k) {
-        const auto& old = network.wall_pairs[k];
-        if (moves[old.sphere]) continue;
-        const auto first = static_cast<std::uint32_t>(entries.patches.size());
-        for (std::uint32_t p = 0; p < old.patches; ++p) entries.patches.push_back(network.patches[old.first + p]);
-        entries.walls.push_back({old.sphere, old.wall, first, old.patches, static_cast<std::int32_t>(k)});
+
+    void search(std::int32_t sphere, std::size_t wall)
+    {
+        const auto first = static_cast<std::uint32_t>(entries_.patches.size());
+        walls_[wall].patches_near(network_.listed_box[sphere].grown(margin_[wall]), entries_.patches);
+        const auto patches = static_cast<std::uint32_t>(entries_.patches.size()) - first;
+        const auto w = static_cast<std::int32_t>(wall);
+        if (patches > 0) entries_.walls.push_back({sphere, w, first, patches, find_old_wall_pair(network_, sphere, w)});
     }
+
+    void keep(std::size_t old_pair)
+    {
+        const auto& old = network_.wall_pairs[old_pair];
+        const auto first = static_cast<std::uint32_t>(entries_.patches.size());
+        for (std::uint32_t p = 0; p < old.patches; ++p) entries_.patches.push_back(network_.patches[old.first + p]);
+        entries_.walls.push_back({old.sphere, old.wall, first, old.patches, static_cast<std::int32_t>(old_pair)});
+    }
+
+private:
+    Entries& entries_;
+    const ContactNetwork& network_;
+    const std::vector<PlacedWall>& walls_;
+    std::vector<double> margin_; ///< by wall [m]
+};
+
+void search_walls(Entries& entries, const ContactNetwork& network, const Model& model,
+    const std::vector<PlacedWall>& walls, const std::vector<std::int32_t>& movers,
+    const std::vector<std::uint8_t>& stale)
+{
+    const auto spheres = static_cast<std::int32_t>(network.listed_box.size());
+    std::vector<std::uint8_t> moves(network.listed_box.size(), 0);
+    for (const auto i : movers) moves[i] = 1;
+    WallSearch near(entries, network, model, walls);
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+        if (stale[w])
+            for (std::int32_t i = 0; i < spheres; ++i) near.search(i, w);
+        else
+            for (const auto i : movers) near.search(i, w);
+    }
+    for (std::size_t k = 0; k < network.wall_pairs.size(); ++k)
+        if (!moves[network.wall_pairs[k].sphere] && !stale[network.wall_pairs[k].wall]) near.keep(k);
 }
 
 } // namespace
 
-std::size_t update_candidates(ContactNetwork& network, const State& state, const Model& model)
+std::size_t update_candidates(
+    ContactNetwork& network, const State& state, const Model& model, const std::vector<PlacedWall>& walls)
 {
     network.listed_box.resize(state.count());
     const auto movers = spheres_to_search(network, state, model);
-    if (movers.empty()) return 0;
+    const auto stale = walls_to_search(network, model, walls);
+    const bool any_stale = std::find(stale.begin(), stale.end(), 1) != stale.end();
+    if (movers.empty() && !any_stale) return 0;
     for (const auto i : movers) network.listed_box[i] = new_listed_box(state, model, i);
+    network.listed_around = Box{};
+    for (const Box& box : network.listed_box) network.listed_around.extend(box);
 
     Entries entries;
     search_spheres(entries, network, state, model, movers);
-    search_walls(entries, network, model, movers);
+    search_walls(entries, network, model, walls, movers, stale);
+    network.listed_pose.resize(walls.size());
+    for (std::size_t w = 0; w < walls.size(); ++w)
+        if (stale[w]) network.listed_pose[w] = walls[w].pose();
     lay_down(network, entries, state, model);
     return movers.size();
 }

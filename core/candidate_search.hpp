@@ -3,6 +3,7 @@
 
 #include "core/contact_network.hpp"
 #include "core/model.hpp"
+#include "core/placed_wall.hpp"
 #include "core/state.hpp"
 
 namespace talus
@@ -22,8 +23,11 @@ inline constexpr double closing_horizon = 1.5;
 /// have left theirs, with those about to, get a new box and are searched for again, alone if they are few; impulses
 /// stay with their pairs.
 ///
-/// Returns how many spheres were searched for.
-std::size_t update_candidates(ContactNetwork& network, const State& state, const Model& model);
+/// Walls that move have a skin of their own: when one has moved further, it alone is searched for anew by all spheres.
+///
+/// @param walls as they stand when the step begins; returns how many spheres were searched for
+std::size_t update_candidates(
+    ContactNetwork& network, const State& state, const Model& model, const std::vector<PlacedWall>& walls);
 
 /// Follows a new storage order of the spheres: sphere i is now new_index[i], or gone where that is negative.
 /// @param state already renumbered

@@ -25,7 +25,7 @@ struct ContactTerms {
     double friction = 0.0;    ///< μ
     double compliance = 0.0;  ///< Σ_n [1/kg]
     double normal_mass = 0.0; ///< 1 / (W + Σ_n) [kg], W the inverse mass sum
-    double tangent_mass = 0.0;     ///< 1 / (W (1 + 5/2 s²)) [kg]
+    double tangent_mass = 0.0;     ///< 1 / (W (1 + 5/2 s²)) [kg]; without rotation 1/W
     double inverse_mass_sum = 0.0; ///< W = 1/m_a + 1/m_b [1/kg]
 };
 
@@ -36,13 +36,19 @@ struct RollingRow {
     double inertia = 0.0;        ///< 1 / (1/I_a + 1/I_b) [kg m²]
 };
 
+/// How the wall moves where a contact is, the mean over the step; the stream exists only where walls move.
+struct WallRow {
+    Vec3 velocity = Vec3::Zero(); ///< of its material at x − r n [m/s]
+    Vec3 spin = Vec3::Zero();     ///< [rad/s]
+};
+
 /// Law that a contact follows in this step: README (4).
 enum class ContactKind : std::uint8_t { resting, open, impact };
 
 /// What one step knows of a contact besides its solve; read by the position pass, the report and the frames.
 struct ContactGeometry {
     double gap = 0.0;        ///< g at the beginning of the step [m]; < 0 is overlap
-    double wall_level = 0.0; ///< n·x at which the gap to the wall is zero [m]; unused between spheres
+    double wall_level = 0.0; ///< n·x at which the gap to the wall is zero after the step [m]; unused between spheres
     std::uint32_t slot = 0;  ///< where its impulse is carried
     ContactKind kind = ContactKind::open;
 };

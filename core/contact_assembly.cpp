@@ -38,6 +38,7 @@ struct Touch {
     double rolling_radius;      ///< R*
     double inverse_inertia_sum; ///< 1/I_a + 1/I_b [1/(kg m²)]
     std::uint32_t slot;
+    WallRow wall = {}; ///< at walls that move
 };
 
 bool within_reach(double gap, double u_n_ahead, const StepConstants& step)
@@ -67,7 +68,8 @@ class TileAssembly
 public:
     TileAssembly(ContactArrays& arrays, const CarriedImpulses& carried, std::size_t first, const Model& model,
         const StepConstants& step)
-        : arrays_(arrays), carried_(carried), first_(first), next_(first), model_(model), step_(step)
+        : arrays_(arrays), carried_(carried), first_(first), next_(first), model_(model), step_(step),
+          inertia_factor_(model.physics.spin ? inverse_inertia_factor : 0.0)
     {
     }
 
@@ -85,8 +87,9 @@ public:
 
         arrays_.contact[next_] = {touch.a, touch.b, touch.normal, normal.target, warm};
         arrays_.terms[next_] = {touch.arm_scale, law.friction, normal.compliance, 1.0 / (w + normal.compliance),
-            1.0 / (w * (1.0 + inverse_inertia_factor * touch.arm_scale * touch.arm_scale)), w};
+            1.0 / (w * (1.0 + inertia_factor_ * touch.arm_scale * touch.arm_scale)), w};
         arrays_.geometry[next_] = {touch.gap, wall_level, touch.slot, kind};
+        if (!arrays_.wall.empty()) arrays_.wall[next_] = touch.wall;
         if (!arrays_.rolling.empty()) arrays_.rolling[next_] = rolling_row(touch, law, kind, warm.dot(touch.normal));
         ++next_;
         survey(touch.gap, normal.compliance);
@@ -124,9 +127,12 @@ private:
     std::size_t first_, next_;
     const Model& model_;
     const StepConstants& step_;
+    double inertia_factor_; ///< 0 where spheres do not turn
     ContactSurvey survey_;
 };
 
+/// @param periodic whether there is a border to reach across
+template <bool periodic>
 ContactSurvey assemble_sphere_contacts(
     ContactNetwork& network, std::size_t tile, const State& state, const Model& model, const StepConstants& step)
 {
@@ -135,7 +141,8 @@ ContactSurvey assemble_sphere_contacts(
         const auto [a, b] = network.pairs[k];
         const Motion& ma = state.motion[a];
         const Motion& mb = state.motion[b];
-        const Vec3 across = state.position[a] - state.position[b];
+        Vec3 across = state.position[a] - state.position[b];
+        if constexpr (periodic) across = model.periodicity.nearest_image(across);
         const double radii = ma.radius + mb.radius;
         const double closing = across.dot(ma.velocity - mb.velocity);
         if (closing >= 0.0 && across.squaredNorm() > (radii + step.reach) * (radii + step.reach)) {
@@ -167,31 +174,39 @@ ContactSurvey assemble_sphere_contacts(
     return assembly.result();
 }
 
-ContactSurvey assemble_wall_contacts(
-    ContactNetwork& network, std::size_t tile, const State& state, const Model& model, const StepConstants& step)
+ContactSurvey assemble_wall_contacts(ContactNetwork& network, std::size_t tile, const State& state, const Model& model,
+    const std::vector<PlacedWall>& walls, const StepConstants& step)
 {
     TileAssembly assembly(network.wall_contacts, network.wall_carried, network.wall_slots_of_tile[tile], model, step);
     std::vector<WallPoint> points;
     for (auto p = network.wall_pairs_of_tile[tile]; p < network.wall_pairs_of_tile[tile + 1]; ++p) {
         auto& pair = network.wall_pairs[p];
-        const Wall& wall = model.walls[pair.wall];
+        const PlacedWall& wall = walls[pair.wall];
         const Motion& m = state.motion[pair.sphere];
         const Vec3& x = state.position[pair.sphere];
+        // The image of the sphere for which the patches are listed.
+        const Vec3 shift = model.periodicity.shift_towards(x, network.listed_box[pair.sphere].center());
+        const auto wall_row = [&](const WallPoint& at) -> WallRow {
+            if (!wall.moves()) return {};
+            return {wall.velocity(static_cast<std::size_t>(at.patch), x + shift - m.radius * at.normal), wall.spin()};
+        };
         points.clear();
-        if (wall.stands_at(state.time)) {
-            const auto fastest = (m.velocity + step.h * model.gravity).norm();
-            const double reach = std::max(step.reach, closing_horizon * step.h * fastest);
+        if (wall.stands()) {
+            const Vec3 ahead = m.velocity + step.h * model.gravity;
+            const double wall_speed = wall.moves() ? wall.fastest(Box{x, x}.shifted(shift).grown(m.radius)) : 0.0;
+            const double reach = std::max(step.reach, closing_horizon * step.h * (ahead.norm() + wall_speed));
             find_wall_points(
-                wall.shape, network.patches.data() + pair.first, pair.patches, x, m.radius + reach, points);
+                wall, network.patches.data() + pair.first, pair.patches, x + shift, m.radius + reach, points);
+            std::erase_if(points, [&](const WallPoint& at) {
+                return !within_reach(at.distance - m.radius, at.normal.dot(ahead - wall_row(at).velocity), step);
+            });
         }
-        std::erase_if(points, [&](const WallPoint& at) {
-            return !within_reach(at.distance - m.radius, at.normal.dot(m.velocity + step.h * model.gravity), step);
-        });
         match_carried(network, pair, points);
         for (std::size_t k = 0; k < points.size(); ++k) {
             const Vec3& n = points[k].normal;
             const double gap = points[k].distance - m.radius;
-            const double u_n = n.dot(m.velocity);
+            const WallRow row = wall_row(points[k]);
+            const double u_n = n.dot(m.velocity - row.velocity);
             assembly.add({.a = pair.sphere,
                              .b = pair.wall,
                              .normal = n,
@@ -202,8 +217,10 @@ ContactSurvey assemble_wall_contacts(
                              .inverse_mass_sum = m.inverse_mass,
                              .rolling_radius = m.radius,
                              .inverse_inertia_sum = inverse_inertia(m),
-                             .slot = pair.first + static_cast<std::uint32_t>(k)},
-                model.materials.between(state.material[pair.sphere], wall.material), n.dot(x) - gap);
+                             .slot = pair.first + static_cast<std::uint32_t>(k),
+                             .wall = row},
+                model.materials.between(state.material[pair.sphere], wall.wall().material),
+                n.dot(x) - gap + step.h * n.dot(row.velocity));
         }
     }
     assembly.finish(tile);
@@ -241,16 +258,19 @@ ContactSurvey& ContactSurvey::operator+=(const ContactSurvey& other)
     return *this;
 }
 
-ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, const Model& model)
+ContactSurvey assemble_contacts(
+    ContactNetwork& network, const State& state, const Model& model, const std::vector<PlacedWall>& walls)
 {
     const StepConstants step(model);
+    const auto assemble_spheres =
+        model.periodicity.any() ? assemble_sphere_contacts<true> : assemble_sphere_contacts<false>;
     const auto tiles = static_cast<std::int64_t>(network.tiles.count());
     std::vector<ContactSurvey> surveys(network.tiles.count());
 #pragma omp parallel for schedule(dynamic) if (tiles > 16)
     for (std::int64_t t = 0; t < tiles; ++t) {
         const auto tile = static_cast<std::size_t>(t);
-        surveys[tile] = assemble_sphere_contacts(network, tile, state, model, step);
-        surveys[tile] += assemble_wall_contacts(network, tile, state, model, step);
+        surveys[tile] = assemble_spheres(network, tile, state, model, step);
+        surveys[tile] += assemble_wall_contacts(network, tile, state, model, walls, step);
     }
     ContactSurvey all;
     for (const auto& survey : surveys) all += survey;
@@ -272,6 +292,9 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state)
             carry(walls, first, walls.count[tile], network.wall_carried));
         for (std::size_t k = first; k < first + walls.count[tile]; ++k) {
             outcome.wall_impulse += walls.contact[k].impulse;
+            if (!walls.wall.empty()) outcome.wall_work += walls.contact[k].impulse.dot(walls.wall[k].velocity);
+            if (!walls.wall.empty() && !walls.rolling.empty())
+                outcome.wall_work += walls.rolling[k].impulse.dot(walls.wall[k].spin);
             if (!walls.contact[k].impulse.isZero(0.0)) state.last_wall[walls.contact[k].a] = walls.contact[k].b;
         }
     }
@@ -279,6 +302,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state)
     for (const auto& outcome : outcomes) {
         all.cone_violation = std::max(all.cone_violation, outcome.cone_violation);
         all.wall_impulse += outcome.wall_impulse;
+        all.wall_work += outcome.wall_work;
     }
     return all;
 }

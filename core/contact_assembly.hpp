@@ -3,6 +3,7 @@
 
 #include "core/contact_network.hpp"
 #include "core/model.hpp"
+#include "core/placed_wall.hpp"
 #include "core/state.hpp"
 
 namespace talus
@@ -22,12 +23,15 @@ struct ContactSurvey {
 /// Turns the candidates that touch, or will within this step and a half, into the contacts of this step's problem:
 /// normal, law (stabilisation.hpp), effective masses, and the impulse carried over, put back into the new tangent plane
 /// and cone. Reads v⁽⁰⁾: gravity has not been added yet. Tiles in parallel.
-ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, const Model& model);
+/// @param walls as they stand now, with their velocity over the step
+ContactSurvey assemble_contacts(
+    ContactNetwork& network, const State& state, const Model& model, const std::vector<PlacedWall>& walls);
 
 /// What is handed on to the next step, read from the solved contacts.
 struct ContactOutcome {
     double cone_violation = 0.0;      ///< worst |λ_t| − μ λ_n [N s], 0 if none
     Vec3 wall_impulse = Vec3::Zero(); ///< Σ λ over the wall contacts [N s]
+    double wall_work = 0.0;           ///< what moving walls did on the spheres, Σ λ·w and rolling rows likewise [J]
 };
 
 /// Stores the impulses of the solved contacts in their slots (an impact carries none) and notes each sphere's last

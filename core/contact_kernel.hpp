@@ -9,11 +9,18 @@
 namespace talus
 {
 
-/// What the sweep of a scene contains; chosen once for a solve, so that a frictionless scene has no tangent and no
-/// spin.
-template <bool with_friction, bool with_rolling> struct Rows {
+/// What the sweep of a scene contains; chosen once for a solve, so that what a scene does not need is not there.
+template <bool with_friction, bool with_spin, bool with_rolling, bool with_moving_walls> struct Rows {
     static constexpr bool friction = with_friction;
+    static constexpr bool spin = with_spin;
     static constexpr bool rolling = with_rolling;
+    static constexpr bool moving_walls = with_moving_walls;
+};
+
+/// What some contacts have besides; null where the scene has none.
+struct SideRows {
+    RollingRow* rolling = nullptr;
+    const WallRow* wall = nullptr;
 };
 
 /// Sums for the stopping rule: Σ W|δ|² of the corrections and Σ W|λ|² of the impulses, rolling rows by their inertia.
@@ -31,12 +38,14 @@ struct SweepSums {
 
 /// Velocity u = G v of sphere a relative to b (or to the wall) at the contact [m/s]: in spheres' own terms
 /// u = v_a − v_b + s n × (a_a + a_b), a = r ω.
-template <bool wall, class R> Vec3 contact_velocity(const Contact& c, const ContactTerms& terms, const Motion* motion)
+template <bool wall, class R>
+Vec3 contact_velocity(const Contact& c, const ContactTerms& terms, const SideRows& rows, const Motion* motion)
 {
     const Motion& a = motion[c.a];
     Vec3 u = a.velocity;
     if constexpr (!wall) u -= motion[c.b].velocity;
-    if constexpr (R::friction) {
+    if constexpr (wall && R::moving_walls) u -= rows.wall->velocity;
+    if constexpr (R::spin) {
         Vec3 rim = a.rim_velocity;
         if constexpr (!wall) rim += motion[c.b].rim_velocity;
         u += terms.arm_scale * c.normal.cross(rim);
@@ -51,14 +60,14 @@ void apply_impulse(const Contact& c, const ContactTerms& terms, const Vec3& p, M
     Motion& a = motion[c.a];
     a.velocity += a.inverse_mass * p;
     Vec3 turn;
-    if constexpr (R::friction) {
+    if constexpr (R::spin) {
         turn = inverse_inertia_factor * terms.arm_scale * c.normal.cross(p);
         a.rim_velocity -= a.inverse_mass * turn;
     }
     if constexpr (!wall) {
         Motion& b = motion[c.b];
         b.velocity -= b.inverse_mass * p;
-        if constexpr (R::friction) b.rim_velocity -= b.inverse_mass * turn;
+        if constexpr (R::spin) b.rim_velocity -= b.inverse_mass * turn;
     }
 }
 
@@ -96,11 +105,13 @@ template <class R> Vec3 solved_impulse(const Contact& c, const ContactTerms& ter
 }
 
 /// The rolling row's impulse on the disk |τ| ≤ μ_r R* λ_n, against the relative spin across the normal; README (8).
-template <bool wall> Vec3 solved_rolling_impulse(const Contact& c, const RollingRow& row, const Motion* motion)
+template <bool wall, class R> Vec3 solved_rolling_impulse(const Contact& c, const SideRows& rows, const Motion* motion)
 {
+    const RollingRow& row = *rows.rolling;
     const Motion& a = motion[c.a];
     Vec3 spin = a.rim_velocity / a.radius;
     if constexpr (!wall) spin -= motion[c.b].rim_velocity / motion[c.b].radius;
+    if constexpr (wall && R::moving_walls) spin -= rows.wall->spin;
     Vec3 impulse = row.impulse - row.inertia * (spin - spin.dot(c.normal) * c.normal);
     const double largest = row.reach * c.impulse.dot(c.normal);
     const double size_squared = impulse.squaredNorm();
@@ -110,9 +121,9 @@ template <bool wall> Vec3 solved_rolling_impulse(const Contact& c, const Rolling
 
 /// Relaxes one contact. With `apply` off nothing changes and the sums tell how far the contact is from its law.
 template <bool wall, class R, bool apply>
-void relax(Contact& c, const ContactTerms& terms, RollingRow* row, Motion* motion, SweepSums& sums)
+void relax(Contact& c, const ContactTerms& terms, const SideRows& rows, Motion* motion, SweepSums& sums)
 {
-    const Vec3 solved = solved_impulse<R>(c, terms, contact_velocity<wall, R>(c, terms, motion));
+    const Vec3 solved = solved_impulse<R>(c, terms, contact_velocity<wall, R>(c, terms, rows, motion));
     const Vec3 change = solved - c.impulse;
     sums.change += terms.inverse_mass_sum * change.squaredNorm();
     sums.size += terms.inverse_mass_sum * solved.squaredNorm();
@@ -121,12 +132,13 @@ void relax(Contact& c, const ContactTerms& terms, RollingRow* row, Motion* motio
         apply_impulse<wall, R>(c, terms, change, motion);
     }
     if constexpr (R::rolling) {
-        const Vec3 rolling = solved_rolling_impulse<wall>(c, *row, motion);
-        const Vec3 rolling_change = rolling - row->impulse;
-        sums.change += rolling_change.squaredNorm() / row->inertia;
-        sums.size += rolling.squaredNorm() / row->inertia;
+        RollingRow& row = *rows.rolling;
+        const Vec3 rolling = solved_rolling_impulse<wall, R>(c, rows, motion);
+        const Vec3 rolling_change = rolling - row.impulse;
+        sums.change += rolling_change.squaredNorm() / row.inertia;
+        sums.size += rolling.squaredNorm() / row.inertia;
         if constexpr (apply) {
-            row->impulse = rolling;
+            row.impulse = rolling;
             apply_rolling_impulse<wall>(c, rolling_change, motion);
         }
     }

@@ -25,24 +25,28 @@ void CarriedImpulses::copy(std::size_t slot, const CarriedImpulses& from, std::s
     touched[slot] = from.touched[from_slot];
 }
 
-void ContactArrays::resize(std::size_t slots, std::size_t tiles, bool with_rolling)
+void ContactArrays::resize(std::size_t slots, std::size_t tiles, bool with_rolling, bool with_moving_walls)
 {
     contact.resize(slots);
     terms.resize(slots);
     rolling.resize(with_rolling ? slots : 0);
+    wall.resize(with_moving_walls ? slots : 0);
     geometry.resize(slots);
     count.assign(tiles, 0);
 }
 
+void ContactNetwork::resize_contacts(const ModelledPhysics& physics)
+{
+    sphere_contacts.resize(pairs.size(), tiles.count(), physics.rolling, false);
+    wall_contacts.resize(patches.size(), tiles.count(), physics.rolling, physics.moving_walls);
+}
+
 void ContactNetwork::persist(Archive& archive)
 {
-    archive(listed_box, tiles, pairs, pairs_of_tile, pair_of_sphere, first_pair, pair_count, pair_carried);
+    archive(listed_box, listed_pose, listed_around, tiles, pairs, pairs_of_tile, pair_of_sphere, first_pair, pair_count,
+        pair_carried);
     archive(wall_pairs, wall_pairs_of_tile, first_wall_pair, wall_pair_count, wall_slots_of_tile, patches, wall_carried,
         wall_carried_normal);
-    if (!archive.reading()) return;
-    const bool with_rolling = !pair_carried.rolling_impulse.empty() || !wall_carried.rolling_impulse.empty();
-    sphere_contacts.resize(pairs.size(), tiles.count(), with_rolling);
-    wall_contacts.resize(patches.size(), tiles.count(), with_rolling);
 }
 
 } // namespace talus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/contact.hpp"
+#include "core/model.hpp"
 #include "core/neighbor_search.hpp"
 #include "core/tiles.hpp"
 
@@ -39,10 +40,11 @@ struct ContactArrays {
     std::vector<Contact> contact;
     std::vector<ContactTerms> terms;
     std::vector<RollingRow> rolling; ///< empty unless the scene has rolling resistance
+    std::vector<WallRow> wall;       ///< empty unless walls move, and between spheres
     std::vector<ContactGeometry> geometry;
     std::vector<std::uint32_t> count; ///< by tile
 
-    void resize(std::size_t slots, std::size_t tiles, bool with_rolling);
+    void resize(std::size_t slots, std::size_t tiles, bool with_rolling, bool with_moving_walls = false);
 };
 
 /// Who may touch whom, who does, and with what impulse: all that a step needs beyond the spheres themselves.
@@ -52,6 +54,8 @@ struct ContactArrays {
 /// they are swept, and the walls near its spheres.
 struct ContactNetwork {
     std::vector<Box> listed_box; ///< by sphere: as long as it stays inside, its list is complete; empty: not listed yet
+    std::vector<Pose> listed_pose; ///< by wall: likewise, as long as it moves no further than its skin
+    Box listed_around;             ///< box round all listed boxes
     Tiles tiles;
 
     std::vector<IndexPair> pairs;
@@ -72,6 +76,9 @@ struct ContactNetwork {
 
     ContactArrays sphere_contacts; ///< tile t from pairs_of_tile[t] on
     ContactArrays wall_contacts;   ///< tile t from wall_slots_of_tile[t] on
+
+    /// Makes room for the contacts of a step: as many as there are slots.
+    void resize_contacts(const ModelledPhysics& physics);
 
     /// All that the next step begins with; the contacts of the last one are not among it.
     void persist(Archive& archive);

@@ -25,11 +25,15 @@ std::optional<Incident::Kind> incident_of(const State& state, const Model& model
 SphereSurvey survey_block(const State& state, const Model& model, std::size_t begin, std::size_t end)
 {
     SphereSurvey survey;
+    Vec3 along = Vec3::Zero(); // gravity along periodic axes: there is no height on them
+    for (int d = 0; d < 3; ++d)
+        if (model.periodicity.along(d)) along[d] = model.gravity[d];
     for (std::size_t i = begin; i < end; ++i) {
         const auto& m = state.motion[i];
         const double speed = m.velocity.norm();
         survey.kinetic_energy += kinetic_energy(m);
-        survey.potential_energy -= model.gravity.dot(state.position[i]) / m.inverse_mass;
+        survey.potential_energy -= (model.gravity - along).dot(state.position[i]) / m.inverse_mass;
+        survey.gravity_work += model.time_step * along.dot(m.velocity) / m.inverse_mass;
         survey.fastest_speed = std::max(survey.fastest_speed, speed);
         if (speed * model.time_step > 0.2 * m.radius) ++survey.long_moves;
         if (const auto kind = incident_of(state, model, i))
@@ -92,6 +96,7 @@ SphereSurvey survey_spheres(const State& state, const Model& model)
     for (const auto& part : of_block) {
         all.kinetic_energy += part.kinetic_energy;
         all.potential_energy += part.potential_energy;
+        all.gravity_work += part.gravity_work;
         all.fastest_speed = std::max(all.fastest_speed, part.fastest_speed);
         all.long_moves += part.long_moves;
         all.incidents.insert(all.incidents.end(), part.incidents.begin(), part.incidents.end());

@@ -30,7 +30,8 @@ struct Incident {
 /// What a pass over the spheres tells about a step.
 struct SphereSurvey {
     double kinetic_energy = 0.0;     ///< [J]
-    double potential_energy = 0.0;   ///< [J]
+    double potential_energy = 0.0;   ///< of the axes that are not periodic [J]
+    double gravity_work = 0.0;       ///< of gravity along periodic axes at the present velocities, in a step [J]
     double fastest_speed = 0.0;      ///< [m/s]
     std::size_t long_moves = 0;      ///< spheres that move more than 0.1 d in a step at their speed
     std::vector<Incident> incidents; ///< in storage order

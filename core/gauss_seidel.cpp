@@ -14,14 +14,15 @@ namespace talus
 namespace
 {
 
-/// Calls visit(contact, terms, row, is_wall) for the contacts of one tile, spheres first; `row` is null without
-/// rolling.
+/// Calls visit(contact, terms, rows, is_wall) for the contacts of one tile, spheres first.
 template <class Visit> void for_each_contact(ContactNetwork& network, std::size_t tile, Visit&& visit)
 {
     const auto visit_all = [&](ContactArrays& arrays, std::size_t first, auto is_wall) {
-        RollingRow* rows = arrays.rolling.empty() ? nullptr : arrays.rolling.data();
+        RollingRow* rolling = arrays.rolling.empty() ? nullptr : arrays.rolling.data();
+        const WallRow* wall = arrays.wall.empty() ? nullptr : arrays.wall.data();
         for (std::size_t k = first; k < first + arrays.count[tile]; ++k)
-            visit(arrays.contact[k], arrays.terms[k], rows ? rows + k : nullptr, is_wall);
+            visit(arrays.contact[k], arrays.terms[k],
+                SideRows{rolling ? rolling + k : nullptr, wall ? wall + k : nullptr}, is_wall);
     };
     visit_all(network.sphere_contacts, network.pairs_of_tile[tile], std::false_type{});
     visit_all(network.wall_contacts, network.wall_slots_of_tile[tile], std::true_type{});
@@ -30,8 +31,8 @@ template <class Visit> void for_each_contact(ContactNetwork& network, std::size_
 template <class R, bool apply> SweepSums relax_tile(ContactNetwork& network, std::size_t tile, Motion* motion)
 {
     SweepSums sums;
-    for_each_contact(network, tile, [&](Contact& c, const ContactTerms& terms, RollingRow* row, auto is_wall) {
-        relax<is_wall(), R, apply>(c, terms, row, motion, sums);
+    for_each_contact(network, tile, [&](Contact& c, const ContactTerms& terms, const SideRows& rows, auto is_wall) {
+        relax<is_wall(), R, apply>(c, terms, rows, motion, sums);
     });
     return sums;
 }
@@ -39,12 +40,12 @@ template <class R, bool apply> SweepSums relax_tile(ContactNetwork& network, std
 template <class R> SweepSums warm_start_tile(ContactNetwork& network, std::size_t tile, Motion* motion)
 {
     SweepSums sums;
-    for_each_contact(network, tile, [&](Contact& c, const ContactTerms& terms, RollingRow* row, auto is_wall) {
+    for_each_contact(network, tile, [&](Contact& c, const ContactTerms& terms, const SideRows& rows, auto is_wall) {
         apply_impulse<is_wall(), R>(c, terms, c.impulse, motion);
         sums.size += terms.inverse_mass_sum * c.impulse.squaredNorm();
         if constexpr (R::rolling) {
-            apply_rolling_impulse<is_wall()>(c, row->impulse, motion);
-            sums.size += row->impulse.squaredNorm() / row->inertia;
+            apply_rolling_impulse<is_wall()>(c, rows.rolling->impulse, motion);
+            sums.size += rows.rolling->impulse.squaredNorm() / rows.rolling->inertia;
         }
     });
     return sums;
@@ -102,11 +103,17 @@ SolveReport solve(ContactNetwork& network, Motion* motion, const SolverSettings&
 }
 
 /// Calls work(Rows<…>{}) with what the scene needs.
+template <bool with_moving_walls, class Work> auto with_rows(const ModelledPhysics& physics, Work&& work)
+{
+    if (physics.rolling) return work(Rows<true, true, true, with_moving_walls>{});
+    if (physics.spin) return work(Rows<true, true, false, with_moving_walls>{});
+    if (physics.friction) return work(Rows<true, false, false, with_moving_walls>{});
+    return work(Rows<false, false, false, with_moving_walls>{});
+}
+
 template <class Work> auto with_rows(const ModelledPhysics& physics, Work&& work)
 {
-    if (physics.rolling) return work(Rows<true, true>{});
-    if (physics.friction) return work(Rows<true, false>{});
-    return work(Rows<false, false>{});
+    return physics.moving_walls ? with_rows<true>(physics, work) : with_rows<false>(physics, work);
 }
 
 } // namespace

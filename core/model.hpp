@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/material.hpp"
+#include "core/periodicity.hpp"
 #include "core/region.hpp"
 #include "core/wall.hpp"
 
@@ -26,8 +27,10 @@ struct SolverSettings {
 /// What the scene needs; the rest does not exist in the step.
 struct ModelledPhysics {
     bool friction = false;
+    bool spin = false; ///< spheres turn; never without friction
     bool rolling = false;
     bool restitution = false;
+    bool moving_walls = false;
     bool wall_loads = false; ///< a sensor asks for them
 };
 
@@ -38,6 +41,7 @@ struct Model {
     Materials materials;
     std::vector<Wall> walls;
     std::vector<Region> outlets;   ///< a sphere whose centre enters one leaves the world lawfully
+    Periodicity periodicity;       ///< none unless the scene asks for it
     Box world;                     ///< a sphere whose centre leaves it elsewhere has escaped
     double speed_limit = infinity; ///< a faster sphere is a blow-up [m/s]
     double mean_diameter = 0.0;    ///< d, of all spheres that the scene makes; the unit of lengths in reports [m]
@@ -45,6 +49,9 @@ struct Model {
     double max_diameter = 0.0;
     ModelledPhysics physics;
     SolverSettings solver;
+
+    /// Against gravity, as far as it acts across periodic axes; +z without: where the surface of a bed is.
+    Vec3 up() const;
 };
 
 } // namespace talus

@@ -33,30 +33,53 @@ private:
 /// times as long, and with 1000 a search for few movers does.
 constexpr std::ptrdiff_t cutoff = 30;
 
-std::vector<SearchBox> search_boxes(const std::vector<Box>& boxes)
+/// The boxes and their images, by their own indices, as far as they meet `around`.
+std::vector<SearchBox> search_boxes(const std::vector<Box>& boxes, const std::vector<Vec3>& shifts, const Box& around)
 {
     std::vector<SearchBox> result;
     result.reserve(boxes.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) result.emplace_back(boxes[i], static_cast<std::int32_t>(i));
+    for (const Vec3& shift : shifts)
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            const Box image = boxes[i].shifted(shift);
+            if (image.meets(around)) result.emplace_back(image, static_cast<std::int32_t>(i));
+        }
     return result;
+}
+
+Box box_around(const std::vector<Box>& boxes)
+{
+    Box around;
+    for (const Box& box : boxes) around.extend(box);
+    return around;
+}
+
+IndexPair ordered(std::int32_t i, std::int32_t j)
+{
+    return {std::min(i, j), std::max(i, j)};
+}
+
+/// In a short cell two boxes may meet across its border on both sides.
+void keep_each_once(std::vector<IndexPair>& pairs)
+{
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
 } // namespace
 
-std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes)
+std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes, const Periodicity& periodicity)
 {
     std::vector<IndexPair> pairs;
-    auto all = search_boxes(boxes);
+    auto all = search_boxes(boxes, periodicity.neighbor_shifts(), box_around(boxes));
     CGAL::box_self_intersection_d<CGAL::Sequential_tag>(
         all.begin(), all.end(),
-        [&](const SearchBox& p, const SearchBox& q) {
-            pairs.push_back({std::min(p.id(), q.id()), std::max(p.id(), q.id())});
-        },
-        cutoff);
+        [&](const SearchBox& p, const SearchBox& q) { pairs.push_back(ordered(p.id(), q.id())); }, cutoff);
+    if (periodicity.any()) keep_each_once(pairs);
     return pairs;
 }
 
-std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes, const std::vector<std::int32_t>& movers)
+std::vector<IndexPair> find_box_pairs(
+    const std::vector<Box>& boxes, const std::vector<std::int32_t>& movers, const Periodicity& periodicity)
 {
     std::vector<std::uint8_t> moves(boxes.size(), 0);
     std::vector<SearchBox> some;
@@ -67,9 +90,7 @@ std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes, const std::
         some.emplace_back(boxes[static_cast<std::size_t>(i)], i);
         around.extend(boxes[static_cast<std::size_t>(i)]);
     }
-    std::vector<SearchBox> others;
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-        if (boxes[i].meets(around)) others.emplace_back(boxes[i], static_cast<std::int32_t>(i));
+    auto others = search_boxes(boxes, periodicity.neighbor_shifts(), around);
 
     std::vector<IndexPair> pairs;
     CGAL::box_intersection_d<CGAL::Sequential_tag>(
@@ -77,18 +98,23 @@ std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes, const std::
         [&](const SearchBox& mover, const SearchBox& other) {
             // Two movers meet twice, once in each role.
             if (moves[static_cast<std::size_t>(other.id())] && other.id() < mover.id()) return;
-            pairs.push_back({std::min(mover.id(), other.id()), std::max(mover.id(), other.id())});
+            pairs.push_back(ordered(mover.id(), other.id()));
         },
         cutoff);
+    if (periodicity.any()) keep_each_once(pairs);
     return pairs;
 }
 
-std::vector<IndexPair> find_box_pairs_brute_force(const std::vector<Box>& boxes)
+std::vector<IndexPair> find_box_pairs_brute_force(const std::vector<Box>& boxes, const Periodicity& periodicity)
 {
+    const auto shifts = periodicity.neighbor_shifts();
+    const auto meet = [&](const Box& a, const Box& b) {
+        return std::any_of(shifts.begin(), shifts.end(), [&](const Vec3& shift) { return a.meets(b.shifted(shift)); });
+    };
     std::vector<IndexPair> pairs;
     for (std::size_t i = 0; i < boxes.size(); ++i)
         for (std::size_t j = i + 1; j < boxes.size(); ++j)
-            if (boxes[i].meets(boxes[j])) pairs.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
+            if (meet(boxes[i], boxes[j])) pairs.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
     return pairs;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/periodicity.hpp"
 #include "core/vector.hpp"
 
 #include <cstdint>
@@ -16,13 +17,15 @@ struct IndexPair {
     auto operator<=>(const IndexPair&) const = default;
 };
 
-/// All pairs of boxes that meet, touching included, in no particular order (CGAL's box intersection, sequential).
-std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes);
+/// All pairs of boxes that meet, touching included, across periodic borders too, each once and in no particular order
+/// (CGAL's box intersection, sequential).
+std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes, const Periodicity& periodicity = {});
 
 /// The same, but only the pairs with at least one member in `movers`, whose entries differ.
-std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes, const std::vector<std::int32_t>& movers);
+std::vector<IndexPair> find_box_pairs(
+    const std::vector<Box>& boxes, const std::vector<std::int32_t>& movers, const Periodicity& periodicity = {});
 
 /// The same as the first by trying every pair: the oracle of the tests.
-std::vector<IndexPair> find_box_pairs_brute_force(const std::vector<Box>& boxes);
+std::vector<IndexPair> find_box_pairs_brute_force(const std::vector<Box>& boxes, const Periodicity& periodicity = {});
 
 } // namespace talus

@@ -8,11 +8,11 @@ namespace talus
 namespace
 {
 
-void separate_spheres(const Contact& c, State& state, double share)
+void separate_spheres(const Contact& c, State& state, const Periodicity& periodicity, double share)
 {
     const Motion& a = state.motion[c.a];
     const Motion& b = state.motion[c.b];
-    const Vec3 across = state.position[c.a] - state.position[c.b];
+    const Vec3 across = periodicity.nearest_image(state.position[c.a] - state.position[c.b]);
     const double distance = across.norm();
     const double overlap = a.radius + b.radius - distance;
     if (overlap <= 0.0) return;
@@ -31,13 +31,14 @@ void separate_from_wall(const Contact& c, double wall_level, State& state, doubl
 
 } // namespace
 
-void project_positions(const ContactNetwork& network, State& state, double share)
+void project_positions(const ContactNetwork& network, State& state, const Periodicity& periodicity, double share)
 {
     const auto& spheres = network.sphere_contacts;
     const auto& walls = network.wall_contacts;
     const auto separate = [&](std::size_t tile) {
         const auto first = network.pairs_of_tile[tile];
-        for (auto k = first; k < first + spheres.count[tile]; ++k) separate_spheres(spheres.contact[k], state, share);
+        for (auto k = first; k < first + spheres.count[tile]; ++k)
+            separate_spheres(spheres.contact[k], state, periodicity, share);
         const auto first_wall = network.wall_slots_of_tile[tile];
         for (auto k = first_wall; k < first_wall + walls.count[tile]; ++k)
             separate_from_wall(walls.contact[k], walls.geometry[k].wall_level, state, share);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pour.hpp"
 
+#include "core/placed_wall.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,33 +15,24 @@ namespace
 constexpr int tries = 50; ///< places tried for a sphere in one step before it has to wait
 
 /// Spheres that a newcomer in the region could touch.
-std::vector<std::size_t> spheres_near(const State& state, const Region& region, double radius)
+std::vector<std::size_t> spheres_near(
+    const State& state, const Region& region, double radius, const Periodicity& periodicity)
 {
     const Box around = region.bounds().grown(radius);
     std::vector<std::size_t> near;
-    for (std::size_t i = 0; i < state.count(); ++i)
-        if (around.grown(state.radius(i)).contains(state.position[i])) near.push_back(i);
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        const Vec3 shift = periodicity.shift_towards(state.position[i], around.center());
+        if (around.grown(state.radius(i)).contains(state.position[i] + shift)) near.push_back(i);
+    }
     return near;
 }
 
-bool overlaps_sphere(const State& state, const std::vector<std::size_t>& near, const Vec3& x, double radius)
+bool overlaps_sphere(const State& state, const std::vector<std::size_t>& near, const Vec3& x, double radius,
+    const Periodicity& periodicity)
 {
     return std::any_of(near.begin(), near.end(), [&](std::size_t i) {
         const double least = radius + state.radius(i);
-        return (x - state.position[i]).squaredNorm() < least * least;
-    });
-}
-
-bool overlaps_wall(const Model& model, double time, const Vec3& x, double radius)
-{
-    std::vector<std::int32_t> patches;
-    return std::any_of(model.walls.begin(), model.walls.end(), [&](const Wall& wall) {
-        if (!wall.stands_at(time)) return false;
-        patches.clear();
-        patches_near(wall.shape, Box{x, x}.grown(radius), patches);
-        return std::any_of(patches.begin(), patches.end(), [&](std::int32_t k) {
-            return nearest_point(wall.shape, static_cast<std::size_t>(k), x).distance < radius;
-        });
+        return periodicity.nearest_image(x - state.position[i]).squaredNorm() < least * least;
     });
 }
 
@@ -64,7 +57,8 @@ std::size_t pour(Pour& source, State& state, const Model& model)
     const auto due = due_count(source, state.time);
     if (source.poured >= due) return 0;
 
-    auto near = spheres_near(state, source.region, 0.5 * source.diameter.max);
+    auto near = spheres_near(state, source.region, 0.5 * source.diameter.max, model.periodicity);
+    const auto walls = place_walls(model.walls, model.periodicity, state.time);
     std::size_t entered = 0;
     while (source.poured < due) {
         if (source.pending_diameter == 0.0) source.pending_diameter = source.diameter.draw(source.random);
@@ -72,7 +66,7 @@ std::size_t pour(Pour& source, State& state, const Model& model)
         bool placed = false;
         for (int k = 0; k < tries && !placed; ++k) {
             const Vec3 x = source.region.random_point(source.random, radius);
-            if (overlaps_sphere(state, near, x, radius) || overlaps_wall(model, state.time, x, radius)) continue;
+            if (overlaps_sphere(state, near, x, radius, model.periodicity) || touches_wall(walls, x, radius)) continue;
             const double density = model.materials.list[static_cast<std::size_t>(source.material)].density;
             near.push_back(add_sphere(state, x, radius, density, source.material, source.velocity));
             placed = true;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace talus
 {
@@ -18,18 +19,51 @@ double countable_edge(double edge, const Vec3& extent)
     return edge;
 }
 
+/// How the tiles lie along each axis.
+class TileAxes
+{
+public:
+    TileAxes(const Box& around, double edge, const Periodicity& periodicity)
+    {
+        const double common = countable_edge(edge, around.extent());
+        for (int d = 0; d < 3; ++d) {
+            origin_[d] = 0.0;
+            edge_[d] = common;
+            if (periodicity.along(d)) {
+                const auto pairs = static_cast<std::int64_t>(0.5 * periodicity.length[d] / common);
+                last_[d] = std::max<std::int64_t>(1, 2 * pairs) - 1;
+                origin_[d] = periodicity.origin[d];
+                edge_[d] = periodicity.length[d] / static_cast<double>(last_[d] + 1);
+                first_[d] = 0;
+            }
+            lowest_[d] = index(around.min, d);
+        }
+    }
+
+    std::int64_t index(const Vec3& x, int d) const
+    {
+        const auto k = static_cast<std::int64_t>(std::floor((x[d] - origin_[d]) / edge_[d]));
+        return std::clamp(k, first_[d], last_[d]);
+    }
+
+    std::int64_t lowest(int d) const { return lowest_[d]; }
+
+private:
+    static constexpr std::int64_t endless = std::numeric_limits<std::int64_t>::max();
+
+    double origin_[3], edge_[3];
+    std::int64_t first_[3] = {-endless, -endless, -endless}, last_[3] = {endless, endless, endless}, lowest_[3];
+};
+
 } // namespace
 
-Tiles make_tiles(const std::vector<Vec3>& position, double edge)
+Tiles make_tiles(const std::vector<Vec3>& position, double edge, const Periodicity& periodicity)
 {
     Tiles tiles;
     if (position.empty()) return tiles;
     Box around;
     for (const auto& x : position) around.extend(x);
-    edge = countable_edge(edge, around.extent());
-    const auto index_of = [edge](double x) { return static_cast<std::int64_t>(std::floor(x / edge)); };
-    const std::array<std::int64_t, 3> lowest = {
-        index_of(around.min[0]), index_of(around.min[1]), index_of(around.min[2])};
+    const TileAxes axes(around, edge, periodicity);
 
     // Key: colour first, then the tile's place, so that sorting lines up tiles by colour.
     std::vector<std::pair<std::uint64_t, std::int32_t>> keys(position.size());
@@ -37,9 +71,9 @@ Tiles make_tiles(const std::vector<Vec3>& position, double edge)
         std::uint64_t color = 0;
         std::uint64_t place = 0;
         for (std::size_t d = 3; d-- > 0;) {
-            const auto index = index_of(position[i][static_cast<Eigen::Index>(d)]);
+            const auto index = axes.index(position[i], static_cast<int>(d));
             color = 2 * color + static_cast<std::uint64_t>(index & 1);
-            place = (place << bits) + static_cast<std::uint64_t>(index - lowest[d]);
+            place = (place << bits) + static_cast<std::uint64_t>(index - axes.lowest(static_cast<int>(d)));
         }
         keys[i] = {(color << (3 * bits)) + place, static_cast<std::int32_t>(i)};
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/archive.hpp"
+#include "core/periodicity.hpp"
 #include "core/vector.hpp"
 
 #include <array>
@@ -28,7 +29,9 @@ struct Tiles {
     void persist(Archive& archive) { archive(spheres, first, color_first); }
 };
 
-/// Sorts the spheres at these places into tiles; empty tiles are left out.
-Tiles make_tiles(const std::vector<Vec3>& position, double edge);
+/// Sorts the spheres at these places into tiles; empty tiles are left out. Along a periodic axis the cell is divided
+/// into an even number of equal tiles at least as long as `edge`, so that neighbours across its border differ in
+/// parity, or is one tile.
+Tiles make_tiles(const std::vector<Vec3>& position, double edge, const Periodicity& periodicity = {});
 
 } // namespace talus

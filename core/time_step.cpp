@@ -37,6 +37,13 @@ void move_spheres(State& state, double h)
     for (std::size_t i = 0; i < state.count(); ++i) state.position[i] += h * state.motion[i].velocity;
 }
 
+/// Spheres that have left the cell of periodic axes come in again on its other side.
+void wrap_positions(State& state, const Periodicity& periodicity)
+{
+    if (!periodicity.any()) return;
+    for (Vec3& x : state.position) x = periodicity.wrapped(x);
+}
+
 /// A sphere whose centre is inside an outlet leaves lawfully, even if it is out of the outlet again when it is taken
 /// away.
 void mark_leaving(State& state, const std::vector<Region>& outlets)
@@ -61,11 +68,13 @@ StepReport make_report(std::size_t searched, const ContactNetwork& contacts, con
         .cone_violation = outcome.cone_violation,
         .kinetic_energy = spheres.kinetic_energy,
         .potential_energy = spheres.potential_energy,
+        .gravity_work = spheres.gravity_work,
         .contact_energy = survey.contact_energy,
         .fastest_speed = spheres.fastest_speed,
         .long_moves = spheres.long_moves,
         .searched = searched,
         .wall_impulse = outcome.wall_impulse,
+        .wall_work = outcome.wall_work,
         .wall_loads = std::move(loads),
         .incidents = std::move(spheres.incidents)};
 }
@@ -82,11 +91,12 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
     // Which spheres and walls can touch during this step?
     enter(Phase::search);
     renumber_along_curve(state, contacts, model);
-    const auto searched = update_candidates(contacts, state, model);
+    const auto walls = place_walls(model.walls, model.periodicity, state.time, h);
+    const auto searched = update_candidates(contacts, state, model, walls);
 
     // Which do, under which law, and with what impulse to begin with?
     enter(Phase::assembly);
-    const auto survey = assemble_contacts(contacts, state, model);
+    const auto survey = assemble_contacts(contacts, state, model, walls);
 
     // The velocity if nothing touched: v⁽¹⁾ = v⁽⁰⁾ + h M⁻¹ f.
     // Then the impulses of the last step: v ← v + M⁻¹ Gᵀ λ⁰.
@@ -103,7 +113,9 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
     // Positions with the new velocity: x ← x + h v.
     enter(Phase::positions);
     move_spheres(state, h);
-    if (model.solver.stabilisation == Stabilisation::projected) project_positions(contacts, state, projected_share);
+    if (model.solver.stabilisation == Stabilisation::projected)
+        project_positions(contacts, state, model.periodicity, projected_share);
+    wrap_positions(state, model.periodicity);
     state.time = static_cast<double>(++state.steps) * h;
 
     // What there is to tell, and what the next step begins with.

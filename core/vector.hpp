@@ -43,6 +43,7 @@ struct Box {
         max = max.cwiseMax(b.max);
         return *this;
     }
+    Box shifted(const Vec3& shift) const { return {min + shift, max + shift}; }
     Box grown(double margin) const { return {min.array() - margin, max.array() + margin}; }
 };
 

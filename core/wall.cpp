@@ -2,6 +2,7 @@
 #include "core/wall.hpp"
 
 #include "core/disk_extent.hpp"
+#include "core/region.hpp"
 #include "core/triangle_tree.hpp"
 
 #include <algorithm>
@@ -110,6 +111,25 @@ WallPoint nearest(const Mesh& mesh, std::size_t patch, const Vec3& x)
     return thin_wall_point(nearest_on_triangle(vertex(0), vertex(1), vertex(2), x), x, normal);
 }
 
+WallPoint nearest(const Grains& grains, std::size_t patch, const Vec3& x)
+{
+    const Vec3& center = grains.centers[patch];
+    const Vec3 away = x - center;
+    const double distance = away.norm();
+    const Vec3 normal = distance > 0.0 ? Vec3(away / distance) : Vec3::UnitZ();
+    return {center + grains.radius * normal, normal, distance - grains.radius};
+}
+
+/// Appends the grains that may meet the box.
+void grains_near(const Grains& grains, const Box& box, std::vector<std::int32_t>& patches)
+{
+    const Box centers = box.grown(grains.radius);
+    const auto begin = std::lower_bound(grains.centers.begin(), grains.centers.end(), centers.min.x(),
+        [](const Vec3& center, double x) { return center.x() < x; });
+    for (auto grain = begin; grain != grains.centers.end() && grain->x() <= centers.max.x(); ++grain)
+        if (centers.contains(*grain)) patches.push_back(static_cast<std::int32_t>(grain - grains.centers.begin()));
+}
+
 Box bounds_of(const Plane&)
 {
     return {};
@@ -143,6 +163,13 @@ Box bounds_of(const Panels& panels)
     return box;
 }
 
+Box bounds_of(const Grains& grains)
+{
+    Box box;
+    for (const Vec3& center : grains.centers) box.extend(center);
+    return box.grown(grains.radius);
+}
+
 Box bounds_of(const Mesh& mesh)
 {
     Box box;
@@ -157,6 +184,7 @@ std::size_t patch_count(const Shape& shape)
 {
     if (const auto* panels = std::get_if<Panels>(&shape)) return panels->rectangles.size();
     if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->triangles.size();
+    if (const auto* grains = std::get_if<Grains>(&shape)) return grains->centers.size();
     return 1;
 }
 
@@ -168,6 +196,7 @@ WallPoint nearest_point(const Shape& shape, std::size_t patch, const Vec3& x)
 void patches_near(const Shape& shape, const Box& box, std::vector<std::int32_t>& patches)
 {
     if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->tree->triangles_in(box, patches);
+    if (const auto* grains = std::get_if<Grains>(&shape)) return grains_near(*grains, box, patches);
     const double half_diagonal = 0.5 * box.extent().norm();
     for (std::size_t k = 0; k < patch_count(shape); ++k)
         if (nearest_point(shape, k, box.center()).distance <= half_diagonal)
@@ -193,6 +222,30 @@ Panels box_panels(const Box& box, const std::vector<std::string>& open)
         }
     }
     return panels;
+}
+
+Grains grain_bed(const Box& box, double diameter, double spacing)
+{
+    // As many equal cells along each axis as have room, each with a grain near its middle.
+    std::array<std::size_t, 3> cells;
+    Vec3 cell;
+    for (int d = 0; d < 3; ++d) {
+        cells[d] = std::max<std::size_t>(1, static_cast<std::size_t>(box.extent()[d] / spacing + 1e-9));
+        cell[d] = box.extent()[d] / static_cast<double>(cells[d]);
+    }
+    Random random(1);
+    Grains grains{{}, 0.5 * diameter};
+    for (std::size_t i = 0; i < cells[0]; ++i)
+        for (std::size_t j = 0; j < cells[1]; ++j)
+            for (std::size_t k = 0; k < cells[2]; ++k) {
+                const Vec3 place(
+                    static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5, static_cast<double>(k) + 0.5);
+                Vec3 jitter;
+                for (int d = 0; d < 3; ++d) jitter[d] = (uniform(random) - 0.5) * 2.0 / 3.0 * spacing;
+                grains.centers.push_back(box.min + place.cwiseProduct(cell) + jitter);
+            }
+    std::sort(grains.centers.begin(), grains.centers.end(), [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
+    return grains;
 }
 
 Mesh make_mesh(std::vector<Vec3> vertices, std::vector<std::array<std::int32_t, 3>> triangles)

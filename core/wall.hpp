@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/vector.hpp"
+#include "core/wall_motion.hpp"
 
 #include <array>
 #include <cstdint>
@@ -61,15 +62,22 @@ struct Mesh {
     std::shared_ptr<const TriangleTree> tree; ///< made by `make_mesh`
 };
 
-using Shape = std::variant<Plane, Cylinder, Cone, Disk, Panels, Mesh>;
+/// Solid spheres fixed to each other: a rough bed.
+struct Grains {
+    std::vector<Vec3> centers; ///< in ascending order of x, so that those near a place are found by halving
+    double radius = 0.0;       ///< [m]
+};
 
-/// A rigid wall: a shape that stands from appear_at until remove_at.
+using Shape = std::variant<Plane, Cylinder, Cone, Disk, Panels, Mesh, Grains>;
+
+/// A rigid wall: a shape that stands from appear_at until remove_at, and moves as told, whatever pushes against it.
 struct Wall {
     std::string name;
     Shape shape;
     int material = 0;
     double appear_at = 0.0;      ///< [s]
     double remove_at = infinity; ///< [s]
+    WallMotion motion = {};      ///< from where the shape says; empty: it stands still
 
     bool stands_at(double time) const { return time >= appear_at && time < remove_at; }
 };
@@ -78,11 +86,12 @@ struct Wall {
 struct WallPoint {
     Vec3 point;      ///< on the wall [m]
     Vec3 normal;     ///< unit, from the wall to the point asked for
-    double distance; ///< along the normal [m]; < 0 only behind a Plane
+    double distance; ///< along the normal [m]; < 0 only behind a Plane and inside a grain
+    std::int32_t patch = 0;
 };
 
 /// A shape is made of patches, each with one nearest point: a plane, tube, funnel or plate is one patch, a box has one
-/// for each face, a mesh one for each triangle.
+/// for each face, a mesh one for each triangle, grains one for each.
 std::size_t patch_count(const Shape& shape);
 
 /// The point of a patch nearest to x.
@@ -96,6 +105,10 @@ Box bounds(const Shape& shape);
 
 /// Panels of the faces of `box`; `open` names faces left out ("x-", "x+", …, "z+").
 Panels box_panels(const Box& box, const std::vector<std::string>& open);
+
+/// Grains on a square lattice jittered in all directions by up to a third of its spacing, layer by layer from the lower
+/// corner of `box`, which holds their centres; along an axis on which it is flat there is one layer. Always the same.
+Grains grain_bed(const Box& box, double diameter, double spacing);
 
 /// A mesh with its search tree. Triangles that are lines, but for rounding, are dropped.
 Mesh make_mesh(std::vector<Vec3> vertices, std::vector<std::array<std::int32_t, 3>> triangles);

@@ -14,42 +14,37 @@ constexpr double same_point = 1e-6;
 /// Normals that differ more than this (cosine) belong to different contacts.
 constexpr double same_contact = 0.7;
 
-struct PatchPoint {
-    WallPoint at;
-    std::int32_t patch;
-};
-
 /// Whether the distance has no local minimum at `candidate`: its point lies on another patch, which comes nearer to x.
 bool on_a_nearer_patch(
-    const PatchPoint& candidate, const std::vector<PatchPoint>& all, const Shape& shape, double tolerance)
+    const WallPoint& candidate, const std::vector<WallPoint>& all, const PlacedWall& wall, double tolerance)
 {
-    return std::any_of(all.begin(), all.end(), [&](const PatchPoint& other) {
-        return other.patch != candidate.patch && other.at.distance < candidate.at.distance &&
-               std::abs(nearest_point(shape, static_cast<std::size_t>(other.patch), candidate.at.point).distance) <=
+    return std::any_of(all.begin(), all.end(), [&](const WallPoint& other) {
+        return other.patch != candidate.patch && other.distance < candidate.distance &&
+               std::abs(wall.nearest_point(static_cast<std::size_t>(other.patch), candidate.point).distance) <=
                    tolerance;
     });
 }
 
 } // namespace
 
-void find_wall_points(const Shape& shape, const std::int32_t* patches, std::size_t count, const Vec3& x, double radius,
-    std::vector<WallPoint>& points)
+void find_wall_points(const PlacedWall& wall, const std::int32_t* patches, std::size_t count, const Vec3& x,
+    double radius, std::vector<WallPoint>& points)
 {
     if (count == 1) {
-        const auto at = nearest_point(shape, static_cast<std::size_t>(patches[0]), x);
+        const auto at = wall.nearest_point(static_cast<std::size_t>(patches[0]), x);
         if (at.distance <= radius) points.push_back(at);
         return;
     }
-    std::vector<PatchPoint> near;
+    std::vector<WallPoint> near;
     for (std::size_t k = 0; k < count; ++k) {
-        const auto at = nearest_point(shape, static_cast<std::size_t>(patches[k]), x);
-        if (at.distance <= radius) near.push_back({at, patches[k]});
+        const auto at = wall.nearest_point(static_cast<std::size_t>(patches[k]), x);
+        if (at.distance <= radius) near.push_back(at);
     }
     const double tolerance = same_point * radius;
     for (const auto& candidate : near) {
         const bool known = std::any_of(points.begin(), points.end(),
-            [&](const WallPoint& p) { return (p.point - candidate.at.point).norm() <= tolerance; });
-        if (!known && !on_a_nearer_patch(candidate, near, shape, tolerance)) points.push_back(candidate.at);
+            [&](const WallPoint& p) { return (p.point - candidate.point).norm() <= tolerance; });
+        if (!known && !on_a_nearer_patch(candidate, near, wall, tolerance)) points.push_back(candidate);
     }
 }
 

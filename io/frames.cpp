@@ -57,8 +57,9 @@ std::vector<ContactLine> loaded_contacts(const Simulation& simulation)
     const double h = simulation.model.time_step;
     std::vector<ContactLine> lines;
     for_each_loaded(network.sphere_contacts, network.pairs_of_tile, [&](const Contact& c, const ContactGeometry& g) {
-        lines.push_back({state.position[c.a], state.position[c.b], c.impulse / h, c.impulse.dot(c.normal) / h, g.gap,
-            state.id[c.a], state.id[c.b], -1});
+        const Vec3 across = simulation.model.periodicity.nearest_image(state.position[c.b] - state.position[c.a]);
+        lines.push_back({state.position[c.a], state.position[c.a] + across, c.impulse / h, c.impulse.dot(c.normal) / h,
+            g.gap, state.id[c.a], state.id[c.b], -1});
     });
     for_each_loaded(network.wall_contacts, network.wall_slots_of_tile, [&](const Contact& c, const ContactGeometry& g) {
         const Vec3 touching = state.position[c.a] - (state.radius(c.a) + g.gap) * c.normal;
@@ -136,8 +137,9 @@ void FrameWriter::write_walls(const Model& model, double time)
     for (std::size_t wall = 0; wall < model.walls.size(); ++wall) {
         if (!model.walls[wall].stands_at(time)) continue;
         const TriangleSoup surface = wall_surface(model.walls[wall].shape, model.world);
+        const Pose pose = pose_at(model.walls[wall].motion, time);
         const auto first = static_cast<vtkIdType>(vertices.size());
-        vertices.insert(vertices.end(), surface.vertices.begin(), surface.vertices.end());
+        for (const Vec3& vertex : surface.vertices) vertices.push_back(pose(vertex));
         for (const auto& [a, b, c] : surface.triangles) {
             cells->InsertNextCell({first + a, first + b, first + c});
             wall_of_triangle.push_back(wall);

@@ -6,7 +6,8 @@
 namespace talus
 {
 
-/// Bad input: what() is one clear sentence that begins with file:line:column and says what is wrong and what is allowed.
+/// Bad input: what() is one clear sentence that begins with file:line:column and says what is wrong and what is
+/// allowed.
 struct InputError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -21,6 +21,11 @@ std::string toml_text(double number)
     return text;
 }
 
+std::string toml_text(bool truth)
+{
+    return truth ? "true" : "false";
+}
+
 std::string toml_text(std::int64_t number)
 {
     return fmt::format("{}", number);
@@ -57,6 +62,15 @@ std::string toml_text(const std::vector<std::string>& list)
     return "[" + text + "]";
 }
 
+std::string toml_text(const std::vector<scene::Waypoint>& table)
+{
+    std::string text;
+    for (const scene::Waypoint& at : table)
+        text += fmt::format("{}[{}, {}, {}, {}]", text.empty() ? "" : ", ", toml_text(at.time), toml_text(at.shift.x()),
+            toml_text(at.shift.y()), toml_text(at.shift.z()));
+    return "[" + text + "]";
+}
+
 template <Table Described> std::string toml_text(const Described& table)
 {
     std::string text;
@@ -64,6 +78,13 @@ template <Table Described> std::string toml_text(const Described& table)
         text += fmt::format("{} {} = {}", text.empty() ? "" : ",", name, toml_text(field));
     });
     return "{" + text + " }";
+}
+
+template <Table Described> std::string toml_text(const std::vector<Described>& list)
+{
+    std::string text;
+    for (const Described& table : list) text += (text.empty() ? "" : ", ") + toml_text(table);
+    return "[" + text + "]";
 }
 
 /// A key with its value on a line of its own, and its unit where it has one.

@@ -105,6 +105,13 @@ void refuse_value(const toml::node& node, std::string_view key, std::string_view
         fmt::format("{}: '{}' must be {}, not {}", place_in(node.source()), key, expected, describe_value(node)));
 }
 
+void read_value(const toml::node& node, const Key& key, bool& field)
+{
+    const auto* truth = node.as_boolean();
+    if (!truth) refuse_value(node, key.name, "true or false");
+    field = truth->get();
+}
+
 void read_value(const toml::node& node, const Key& key, std::int64_t& field)
 {
     const auto* number = node.as_integer();
@@ -166,6 +173,25 @@ void read_value(const toml::node& node, const Key& key, std::vector<std::string>
         const auto* text = element.as_string();
         if (!text || !is_allowed(text->get(), key.allowed)) refuse_name(element, key, expected);
         field.push_back(text->get());
+    }
+}
+
+void read_value(const toml::node& node, const Key& key, std::vector<scene::Waypoint>& field)
+{
+    const char* expected = "rows of four numbers [time, x, y, z]";
+    const auto* array = node.as_array();
+    if (!array) refuse_value(node, key.name, expected);
+    field.clear();
+    for (const toml::node& element : *array) {
+        const auto* row = element.as_array();
+        if (!row || row->size() != 4) refuse_value(element, key.name, expected);
+        double numbers[4];
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto number = allowed_number((*row)[k], key.allowed);
+            if (!number) refuse_value((*row)[k], key.name, expected);
+            numbers[k] = *number;
+        }
+        field.push_back({numbers[0], Vec3(numbers[1], numbers[2], numbers[3])});
     }
 }
 

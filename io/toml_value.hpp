@@ -36,12 +36,14 @@ std::string describe_value(const toml::node& node);
 
 /// Reads one value and checks that it is allowed.
 /// @throws InputError "place: 'key' must be …, not …"
+void read_value(const toml::node& node, const Key& key, bool& field);
 void read_value(const toml::node& node, const Key& key, std::int64_t& field);
 void read_value(const toml::node& node, const Key& key, double& field);
 void read_value(const toml::node& node, const Key& key, std::string& field);
 void read_value(const toml::node& node, const Key& key, Vec3& field);
 void read_value(const toml::node& node, const Key& key, scene::NumberOrName& field);
 void read_value(const toml::node& node, const Key& key, std::vector<std::string>& field);
+void read_value(const toml::node& node, const Key& key, std::vector<scene::Waypoint>& field);
 
 /// @throws InputError "place: 'key' must be `expected`, not …"
 [[noreturn]] void refuse_value(const toml::node& node, std::string_view key, std::string_view expected);

@@ -45,6 +45,29 @@ void append_rectangle(TriangleSoup& soup, const Panels::Rectangle& panel)
     soup.triangles.push_back({first, first + 2, first + 3});
 }
 
+/// A globe of eight meridians and five circles of latitude.
+void append_globe(TriangleSoup& soup, const Vec3& center, double radius)
+{
+    constexpr std::int32_t meridians = 8, circles = 5;
+    const auto first = static_cast<std::int32_t>(soup.vertices.size());
+    const auto vertex = [&](std::int32_t circle, std::int32_t meridian) {
+        return first + circle * meridians + meridian % meridians;
+    };
+    for (std::int32_t c = 0; c < circles; ++c)
+        for (std::int32_t m = 0; m < meridians; ++m) {
+            const double latitude = std::numbers::pi * c / (circles - 1),
+                         longitude = 2.0 * std::numbers::pi * m / meridians;
+            soup.vertices.push_back(
+                center + radius * Vec3(std::sin(latitude) * std::cos(longitude),
+                                      std::sin(latitude) * std::sin(longitude), std::cos(latitude)));
+        }
+    for (std::int32_t c = 0; c + 1 < circles; ++c)
+        for (std::int32_t m = 0; m < meridians; ++m) {
+            if (c > 0) soup.triangles.push_back({vertex(c, m), vertex(c + 1, m), vertex(c, m + 1)});
+            if (c + 2 < circles) soup.triangles.push_back({vertex(c, m + 1), vertex(c + 1, m), vertex(c + 1, m + 1)});
+        }
+}
+
 struct Triangulate {
     const Box& world;
 
@@ -85,6 +108,14 @@ struct Triangulate {
     {
         TriangleSoup soup;
         for (const Panels::Rectangle& panel : panels.rectangles) append_rectangle(soup, panel);
+        return soup;
+    }
+
+    /// Each grain as a globe of a few facets.
+    TriangleSoup operator()(const Grains& grains) const
+    {
+        TriangleSoup soup;
+        for (const Vec3& center : grains.centers) append_globe(soup, center, grains.radius);
         return soup;
     }
 

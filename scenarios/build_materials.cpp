@@ -77,7 +77,7 @@ int material_index(const Materials& materials, const std::string& name, const st
     throw SceneError(key, "unknown material '" + name + "'; the scene has " + (known.empty() ? "none" : known));
 }
 
-ModelledPhysics needed_physics(const Materials& materials)
+ModelledPhysics needed_physics(const scene::Scene& scene, const Materials& materials)
 {
     ModelledPhysics physics;
     for (const auto& law : materials.laws) {
@@ -85,6 +85,11 @@ ModelledPhysics needed_physics(const Materials& materials)
         physics.rolling = physics.rolling || law.rolling_friction > 0.0;
         physics.restitution = physics.restitution || law.restitution > 0.0;
     }
+    if (physics.rolling && !scene.world.rotation)
+        throw SceneError("world.rotation", "spheres that do not turn have no rolling resistance: leave out "
+                                           "'rolling_friction', or let them turn");
+    physics.spin = physics.friction && scene.world.rotation;
+    for (const auto& wall : scene.wall) physics.moving_walls = physics.moving_walls || !wall.motion.empty();
     return physics;
 }
 

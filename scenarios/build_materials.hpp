@@ -15,6 +15,7 @@ Materials build_materials(const scene::Scene& scene);
 int material_index(const Materials& materials, const std::string& name, const std::string& key);
 
 /// What must be modelled for these materials; the rest is left out of the step.
-ModelledPhysics needed_physics(const Materials& materials);
+/// @throws SceneError where it contradicts the scene's rotation
+ModelledPhysics needed_physics(const scene::Scene& scene, const Materials& materials);
 
 } // namespace talus

@@ -53,10 +53,11 @@ Model build_model(const scene::Scene& scene)
     Model model;
     model.gravity = scene.world.gravity;
     model.materials = build_materials(scene);
-    model.physics = needed_physics(model.materials);
-    model.walls = build_walls(scene, model.materials);
-    model.outlets = build_outlets(scene);
+    model.physics = needed_physics(scene, model.materials);
     find_diameters(model, scene);
+    model.periodicity = build_periodicity(scene, model.max_diameter);
+    model.walls = build_walls(scene, model.materials, model.periodicity);
+    model.outlets = build_outlets(scene);
     model.world = build_world(scene, model);
     model.solver = build_solver(scene);
     return model;
@@ -72,10 +73,13 @@ std::string explain_model(const Model& model)
         auto& list = needed ? models : leaves_out;
         list += (list.empty() ? "" : ", ") + std::string(what);
     };
-    say(p.friction, "friction and spin");
+    say(p.friction, "friction");
+    say(p.spin, "rotation");
     say(p.rolling, "rolling resistance");
     say(p.restitution, "restitution");
     say(meshes, "mesh walls");
+    say(p.moving_walls, "moving walls");
+    say(model.periodicity.any(), "periodic axes");
     say(!model.outlets.empty(), "outlets");
     return models + (leaves_out.empty() ? "" : "; leaves out " + leaves_out);
 }

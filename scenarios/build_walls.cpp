@@ -5,6 +5,7 @@
 #include "scenarios/scene_checks.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace talus
 {
@@ -21,6 +22,8 @@ Shape build_shape(const scene::WallTable& w, std::size_t index)
         if (w.hole_radius >= w.radius) throw SceneError(key("hole_radius"), "the hole must be smaller than the disk");
         return Disk{w.center, unit_vector(w.normal, key("normal")), w.radius, w.hole_radius};
     }
+    if (w.shape == "grains")
+        return grain_bed(require_layer(w.min, w.max, key("max")), w.diameter, w.spacing * w.diameter);
     if (w.shape == "mesh") {
         if (w.triangles.empty())
             throw SceneError(key("mesh"), "a wall of shape \"mesh\" needs an STL file with triangles");
@@ -36,15 +39,51 @@ Shape build_shape(const scene::WallTable& w, std::size_t index)
     return Cone{w.base, axis, w.base_radius, w.top_radius, w.height};
 }
 
+MotionPart build_motion_part(const scene::MotionTable& m, const std::string& key)
+{
+    if (m.kind != "table" && !(m.to >= m.from)) throw SceneError(key + ".to", "'to' must not be before 'from'");
+    const MotionSpan span{m.from, m.to};
+    if (m.kind == "translate") return Translation{span, m.velocity};
+    if (m.kind == "turn") return Turning{span, m.point, unit_vector(m.axis, key + ".axis"), m.rate};
+    if (m.kind == "shake") return Shaking{span, m.amplitude, m.frequency};
+    if (m.table.empty()) throw SceneError(key + ".table", "'table' needs at least one row [time, x, y, z]");
+    Course course;
+    for (const auto& row : m.table) {
+        if (!course.waypoints.empty() && !(row.time > course.waypoints.back().time))
+            throw SceneError(key + ".table", "the times of 'table' must rise from row to row");
+        course.waypoints.push_back({row.time, row.shift});
+    }
+    return course;
+}
+
+WallMotion build_motion(const scene::WallTable& table, std::size_t index)
+{
+    WallMotion motion;
+    for (std::size_t k = 0; k < table.motion.size(); ++k)
+        motion.push_back(build_motion_part(table.motion[k], key_path("wall", index, key_path("motion", k))));
+    return motion;
+}
+
+/// A plane is as wide as the world and its own image, so it must not cross a periodic axis.
+void require_seamless(const Shape& shape, const Periodicity& periodicity, const std::string& key)
+{
+    const auto* plane = std::get_if<Plane>(&shape);
+    for (int d = 0; plane && d < 3; ++d)
+        if (periodicity.along(d) && std::abs(plane->normal[d]) > 1e-9)
+            throw SceneError(key, "a plane across a periodic axis would cut every image; use another shape");
+}
+
 } // namespace
 
-std::vector<Wall> build_walls(const scene::Scene& scene, const Materials& materials)
+std::vector<Wall> build_walls(const scene::Scene& scene, const Materials& materials, const Periodicity& periodicity)
 {
     std::vector<Wall> walls;
     for (std::size_t k = 0; k < scene.wall.size(); ++k) {
         const auto& w = scene.wall[k];
         const int material = material_index(materials, w.material, key_path("wall", k, "material"));
-        walls.push_back({w.name, build_shape(w, k), material, w.appear_at, w.remove_at});
+        auto shape = build_shape(w, k);
+        require_seamless(shape, periodicity, key_path("wall", k, "normal"));
+        walls.push_back({w.name, std::move(shape), material, w.appear_at, w.remove_at, build_motion(w, k)});
     }
     return walls;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/material.hpp"
+#include "core/periodicity.hpp"
 #include "core/wall.hpp"
 #include "scenarios/scene.hpp"
 
@@ -9,6 +10,6 @@ namespace talus
 {
 
 /// The walls in the order of the scene. @throws SceneError where a shape is empty or a material unknown
-std::vector<Wall> build_walls(const scene::Scene& scene, const Materials& materials);
+std::vector<Wall> build_walls(const scene::Scene& scene, const Materials& materials, const Periodicity& periodicity);
 
 } // namespace talus

@@ -31,13 +31,44 @@ void find_diameters(Model& model, const scene::Scene& scene)
     model.mean_diameter = sum / count;
 }
 
+Periodicity build_periodicity(const scene::Scene& scene, double max_diameter)
+{
+    constexpr double shortest = 4.0; // diameters: a sphere must not meet two images of another
+    Periodicity periodicity;
+    for (const auto& name : scene.world.periodic) {
+        const int d = name[0] - 'x';
+        const double length = scene.world.max[d] - scene.world.min[d];
+        if (!std::isfinite(length))
+            throw SceneError("world.periodic", "along the periodic axis " + name + " 'min' and 'max' must be given");
+        if (length < shortest * max_diameter)
+            throw SceneError("world.periodic",
+                "along the periodic axis " + name + " the world must be at least four diameters of the largest sphere");
+        periodicity.origin[d] = scene.world.min[d];
+        periodicity.length[d] = length;
+    }
+    if (periodicity.along(0) && periodicity.along(1) && periodicity.along(2))
+        throw SceneError("world.periodic", "two axes may be periodic, not all three");
+    return periodicity;
+}
+
+/// Round all places of a wall during the run.
+Box swept_bounds(const Wall& wall, double duration)
+{
+    const Box still = bounds(wall.shape);
+    if (wall.motion.empty() || still.empty()) return still;
+    constexpr int samples = 200;
+    Box swept;
+    for (int k = 0; k <= samples; ++k) swept.extend(placed(pose_at(wall.motion, duration * k / samples), still));
+    return swept;
+}
+
 Box build_world(const scene::Scene& scene, const Model& model)
 {
     if (!((scene.world.min.array() < scene.world.max.array()).all()))
         throw SceneError("world.max", "the world is empty: every coordinate of 'min' must be below that of 'max'");
     Box box;
     for (const auto& wall : model.walls)
-        if (const Box b = bounds(wall.shape); !b.empty()) box.extend(b);
+        if (const Box b = swept_bounds(wall, scene.time.duration); !b.empty()) box.extend(b);
     for (std::size_t k = 0; k < scene.fill.size(); ++k)
         box.extend(build_region(scene.fill[k].region, key_path("fill", k, "region")).bounds());
     for (std::size_t k = 0; k < scene.pour.size(); ++k)

@@ -11,6 +11,14 @@ namespace talus
 /// @throws SceneError where it makes none
 void find_diameters(Model& model, const scene::Scene& scene);
 
+/// The periodic axes, from the corners of the world.
+/// @param max_diameter of the spheres [m]
+/// @throws SceneError where a corner is not given or the cell is shorter than four spheres
+Periodicity build_periodicity(const scene::Scene& scene, double max_diameter);
+
+/// The box round all places that a wall has during the run; a plane has none and gives an empty one.
+Box swept_bounds(const Wall& wall, double duration);
+
 /// The box that no sphere may leave: that of walls, fills, pours and outlets, grown by five diameters and open upwards,
 /// where the scene does not say. @throws SceneError where it is empty
 Box build_world(const scene::Scene& scene, const Model& model);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/packing.hpp"
 
+#include "core/placed_wall.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,19 +14,6 @@ namespace
 {
 
 constexpr int tries = 2000; ///< places tried for one sphere of a random packing
-
-bool touches_wall(const Model& model, const PackedSphere& sphere)
-{
-    std::vector<std::int32_t> patches;
-    return std::any_of(model.walls.begin(), model.walls.end(), [&](const Wall& wall) {
-        if (!wall.stands_at(0.0)) return false;
-        patches.clear();
-        patches_near(wall.shape, Box{sphere.center, sphere.center}.grown(sphere.radius), patches);
-        return std::any_of(patches.begin(), patches.end(), [&](std::int32_t k) {
-            return nearest_point(wall.shape, static_cast<std::size_t>(k), sphere.center).distance < sphere.radius;
-        });
-    });
-}
 
 /// Spheres sorted into cubes as large as the largest of them, to find those near a place.
 class SphereGrid
@@ -89,7 +78,7 @@ Vec3 random_in_ball(Random& random)
 struct LatticeFrame {
     Vec3 up, e1, e2;
 
-    explicit LatticeFrame(const Vec3& gravity) : up(gravity.isZero() ? Vec3::UnitZ() : Vec3(-gravity.normalized()))
+    explicit LatticeFrame(const Model& model) : up(model.up())
     {
         // Along the axes of the world where gravity is along one, so that box-shaped regions are filled to their
         // corners.
@@ -105,7 +94,7 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistri
     double spacing, const std::vector<PackedSphere>& others, const Model& model, Random& random)
 {
     const double a = spacing * diameter.max; // distance of nearest lattice points
-    const LatticeFrame frame(model.gravity);
+    const LatticeFrame frame(model);
     const Box bounds = region.bounds();
     const Vec3 middle = bounds.center();
     // Half the region's size along each direction of the frame.
@@ -115,6 +104,7 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistri
     const auto columns = static_cast<std::int64_t>(half(frame.e2) / a) + 2;
 
     const auto grid = grid_of(others, diameter);
+    const auto walls = place_walls(model.walls, model.periodicity, 0.0);
     std::vector<PackedSphere> spheres;
     for (std::int64_t k = 0; k < layers; ++k) {
         for (std::int64_t i = -rows; i <= rows; ++i)
@@ -126,7 +116,8 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistri
                                    static_cast<double>(j) * a * frame.e2 +
                                    (0.5 * a - half(frame.up) + static_cast<double>(k) * a) * frame.up;
                 const PackedSphere sphere{point + jitter, radius};
-                if (region.contains(sphere.center, radius) && !grid.overlaps(sphere) && !touches_wall(model, sphere))
+                if (region.contains(sphere.center, radius) && !grid.overlaps(sphere) &&
+                    !touches_wall(walls, sphere.center, sphere.radius))
                     spheres.push_back(sphere);
             }
     }
@@ -137,13 +128,14 @@ std::vector<PackedSphere> random_packing(const Region& region, const SizeDistrib
     const std::vector<PackedSphere>& others, const Model& model, Random& random)
 {
     auto grid = grid_of(others, diameter);
+    const auto walls = place_walls(model.walls, model.periodicity, 0.0);
     std::vector<PackedSphere> spheres;
     while (static_cast<std::int64_t>(spheres.size()) < count) {
         const double radius = 0.5 * diameter.draw(random);
         bool placed = false;
         for (int k = 0; k < tries && !placed; ++k) {
             const PackedSphere sphere{region.random_point(random, radius), radius};
-            placed = !grid.overlaps(sphere) && !touches_wall(model, sphere);
+            placed = !grid.overlaps(sphere) && !touches_wall(walls, sphere.center, sphere.radius);
             if (!placed) continue;
             grid.add(sphere);
             spheres.push_back(sphere);

@@ -105,6 +105,8 @@ struct WorldTable {
     Vec3 gravity = Vec3(0, 0, -9.81);
     Vec3 min = Vec3::Constant(-infinity);
     Vec3 max = Vec3::Constant(infinity);
+    std::vector<std::string> periodic;
+    bool rotation = true;
 
     static void describe(auto& self, auto&& key)
     {
@@ -113,6 +115,10 @@ struct WorldTable {
             "lower corner of the world that no sphere may leave; -inf: from the walls, fills, pours and outlets, grown "
             "by five diameters");
         key("max", self.max, or_infinite(any()), "m", "upper corner; inf: likewise, and open upwards");
+        key("periodic", self.periodic, one_of({"x", "y", "z"}), "",
+            "axes along which the world repeats itself from 'min' to 'max'; two at most");
+        key("rotation", self.rotation, any(), "",
+            "false: spheres do not turn, so that friction acts as between blocks; no rolling resistance then");
     }
 };
 
@@ -255,12 +261,50 @@ struct PourTable {
     }
 };
 
+/// A place on the way of a wall.
+struct Waypoint {
+    double time = 0.0;         ///< [s]
+    Vec3 shift = Vec3::Zero(); ///< from where the wall's own keys put it [m]
+};
+
+struct MotionTable {
+    std::string kind;
+    double from = 0.0;
+    double to = infinity;
+    Vec3 velocity = Vec3::Zero();
+    Vec3 point = Vec3::Zero();
+    Vec3 axis = Vec3::UnitZ();
+    double rate = 0.0;
+    Vec3 amplitude = Vec3::Zero();
+    double frequency = 0.0;
+    std::vector<Waypoint> table;
+
+    static void describe(auto& self, auto&& key)
+    {
+        key("kind", self.kind, required(deciding(one_of({"translate", "turn", "shake", "table"}))), "", "");
+        key("from", self.from, only_for({"translate", "turn", "shake"}, at_least(0.0)), "s", "when it begins");
+        key("to", self.to, only_for({"translate", "turn", "shake"}, or_infinite(at_least(0.0))), "s",
+            "when it ends; the wall stays where it has come to");
+        key("velocity", self.velocity, required(only_for({"translate"}, any())), "m/s", "");
+        key("point", self.point, only_for({"turn"}, any()), "m", "on the axis");
+        key("axis", self.axis, required(only_for({"turn"}, any())), "", "direction of the axis");
+        key("rate", self.rate, required(only_for({"turn"}, any())), "rad/s", "right-handed about the axis");
+        key("amplitude", self.amplitude, required(only_for({"shake"}, any())), "m",
+            "the wall is amplitude sin(2 pi frequency (t - from)) away from its place");
+        key("frequency", self.frequency, required(only_for({"shake"}, above(0.0))), "Hz", "");
+        key("table", self.table, required(only_for({"table"}, any())), "s, m",
+            "rows [time, x, y, z]: how far from its place the wall is then; straight lines in between, held at the "
+            "ends");
+    }
+};
+
 struct WallTable {
     std::string name;
     std::string shape = "mesh";
     std::string material;
     double appear_at = 0.0;
     double remove_at = infinity;
+    std::vector<MotionTable> motion;
     // plane
     Vec3 point = Vec3::Zero();
     Vec3 normal = Vec3::UnitZ();
@@ -278,6 +322,9 @@ struct WallTable {
     // disk
     Vec3 center = Vec3::Zero();
     double hole_radius = 0.0;
+    // grains
+    double diameter = 0.0;
+    double spacing = 1.0;
     // mesh
     std::string mesh;
     double scale = 1.0;
@@ -289,16 +336,20 @@ struct WallTable {
     static void describe(auto& self, auto&& key)
     {
         key("name", self.name, required(any()), "", "for --set, reports and the wall frames");
-        key("shape", self.shape, deciding(one_of({"plane", "box", "cylinder", "cone", "disk", "mesh"})), "",
-            "plane: a half-space; the others are thin, with two sides");
+        key("shape", self.shape, deciding(one_of({"plane", "box", "cylinder", "cone", "disk", "grains", "mesh"})), "",
+            "plane: a half-space; grains: spheres fixed to each other, a rough bed; the others are thin, with two "
+            "sides");
         key("material", self.material, required(any()), "", "");
         key("appear_at", self.appear_at, at_least(0.0), "s", "when the wall is put there");
         key("remove_at", self.remove_at, or_infinite(at_least(0.0)), "s", "when the wall is taken away; inf: never");
+        key("motion", self.motion, any(), "",
+            "how the wall moves: one or more parts [[wall.motion]], each of which moves what comes of those before it");
         key("point", self.point, only_for({"plane"}, any()), "m", "a point on it");
         key("normal", self.normal, only_for({"plane", "disk"}, any()), "",
             "of a plane: into the free side; of a disk: at right angles to the plate");
-        key("min", self.min, only_for({"box"}, any()), "m", "lower corner");
-        key("max", self.max, required(only_for({"box"}, any())), "m", "upper corner");
+        key("min", self.min, only_for({"box", "grains"}, any()), "m", "lower corner");
+        key("max", self.max, required(only_for({"box", "grains"}, any())), "m",
+            "upper corner; of the centres of grains");
         key("open", self.open, only_for({"box"}, one_of({"x-", "x+", "y-", "y+", "z-", "z+"})), "",
             "the faces left out");
         key("base", self.base, only_for({"cylinder", "cone"}, any()), "m", "centre of the first end");
@@ -312,6 +363,9 @@ struct WallTable {
         key("center", self.center, only_for({"disk"}, any()), "m", "of the plate");
         key("hole_radius", self.hole_radius, only_for({"disk"}, at_least(0.0)), "m",
             "of the round hole in the middle; 0: none");
+        key("diameter", self.diameter, required(only_for({"grains"}, above(0.0))), "m", "of the grains");
+        key("spacing", self.spacing, only_for({"grains"}, between(0.2, 10.0)), "",
+            "of the jittered lattice on which they lie / their diameter");
         key("mesh", self.mesh, required(only_for({"mesh"}, any())), "", "an STL file, beside the scene file");
         key("scale", self.scale, only_for({"mesh"}, above(0.0)), "", "the file's numbers times this are metres");
         key("translate", self.translate, only_for({"mesh"}, any()), "m", "moved by this after scaling");

@@ -8,7 +8,12 @@ namespace talus
 
 std::string key_path(const std::string& list, std::size_t index, const std::string& key)
 {
-    return list + "[" + std::to_string(index) + "]." + key;
+    return key_path(list, index) + "." + key;
+}
+
+std::string key_path(const std::string& list, std::size_t index)
+{
+    return list + "[" + std::to_string(index) + "]";
 }
 
 Vec3 unit_vector(const Vec3& direction, const std::string& key)
@@ -20,6 +25,13 @@ Vec3 unit_vector(const Vec3& direction, const std::string& key)
 void require_positive(double value, const std::string& key, const std::string& what)
 {
     if (!(value > 0.0) || !std::isfinite(value)) throw SceneError(key, what + " must be given, and greater than 0");
+}
+
+Box require_layer(const Vec3& min, const Vec3& max, const std::string& key)
+{
+    if (!((min.array() <= max.array()).all()))
+        throw SceneError(key, "no coordinate of 'min' may be above that of 'max'");
+    return {min, max};
 }
 
 Box require_box(const Vec3& min, const Vec3& max, const std::string& key)

@@ -10,11 +10,17 @@ namespace talus
 /// The path of a key in a list of tables: "wall[2].material".
 std::string key_path(const std::string& list, std::size_t index, const std::string& key);
 
+/// The path of an element of a list: "motion[1]".
+std::string key_path(const std::string& list, std::size_t index);
+
 /// The direction as a unit vector. @throws SceneError where it is zero
 Vec3 unit_vector(const Vec3& direction, const std::string& key);
 
 /// @param what in the sentence: "the radius of a disk"; @throws SceneError unless the value is finite and above 0
 void require_positive(double value, const std::string& key, const std::string& what);
+
+/// The box between two corners, which may be flat. @throws SceneError where one lies beyond the other
+Box require_layer(const Vec3& min, const Vec3& max, const std::string& key);
 
 /// The box between two corners. @throws SceneError where it is empty
 Box require_box(const Vec3& min, const Vec3& max, const std::string& key);

@@ -2,6 +2,7 @@
 #include "scenarios/simulation.hpp"
 
 #include "core/neighbor_search.hpp"
+#include "core/placed_wall.hpp"
 
 namespace talus
 {
@@ -16,6 +17,7 @@ constexpr std::int64_t outlet_interval =
 void Simulation::persist(Archive& archive)
 {
     archive(state, contacts, pours, outflow);
+    if (archive.reading()) contacts.resize_contacts(model.physics);
     for (const auto& sensor : sensors) archive(*sensor);
 }
 
@@ -44,23 +46,17 @@ OverlapCheck check_overlaps(const Simulation& simulation)
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < state.count(); ++i)
         boxes.push_back(Box{state.position[i], state.position[i]}.grown(state.radius(i)));
-    for (const auto& [a, b] : find_box_pairs(boxes))
-        note(state.radius(a) + state.radius(b) - (state.position[a] - state.position[b]).norm(), state.id[a],
-            state.id[b], -1);
+    const auto& periodicity = simulation.model.periodicity;
+    for (const auto& [a, b] : find_box_pairs(boxes, periodicity))
+        note(
+            state.radius(a) + state.radius(b) - periodicity.nearest_image(state.position[a] - state.position[b]).norm(),
+            state.id[a], state.id[b], -1);
 
-    std::vector<std::int32_t> patches;
+    const auto walls = place_walls(simulation.model.walls, periodicity, state.time);
     for (std::size_t i = 0; i < state.count(); ++i)
-        for (std::size_t w = 0; w < simulation.model.walls.size(); ++w) {
-            const auto& wall = simulation.model.walls[w];
-            if (!wall.stands_at(state.time)) continue;
-            patches.clear();
-            patches_near(wall.shape, boxes[i], patches);
-            double nearest = infinity;
-            for (const auto k : patches)
-                nearest = std::min(
-                    nearest, nearest_point(wall.shape, static_cast<std::size_t>(k), state.position[i]).distance);
-            note(state.radius(i) - nearest, state.id[i], -1, static_cast<std::int32_t>(w));
-        }
+        for (std::size_t w = 0; w < walls.size(); ++w)
+            if (walls[w].stands())
+                note(-walls[w].gap(state.position[i], state.radius(i)), state.id[i], -1, static_cast<std::int32_t>(w));
     return check;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/step_choice.hpp"
 
+#include "core/placed_wall.hpp"
 #include "core/stabilisation.hpp"
+#include "scenarios/build_world.hpp"
 #include "scenarios/scene_error.hpp"
 
 #include <algorithm>
@@ -40,7 +42,7 @@ double fall_height(const Simulation& simulation)
 {
     const auto& model = simulation.model;
     if (model.gravity.isZero()) return 0.0;
-    const Vec3 up = -model.gravity.normalized();
+    const Vec3 up = model.up();
     double highest = -infinity, lowest = infinity;
     const auto span = [&](const Box& box) {
         const double middle = box.center().dot(up), half = 0.5 * box.extent().dot(up.cwiseAbs());
@@ -57,7 +59,7 @@ double fall_height(const Simulation& simulation)
     for (const auto& wall : model.walls) {
         const auto* plane = std::get_if<Plane>(&wall.shape);
         if (!plane) {
-            span(bounds(wall.shape));
+            span(swept_bounds(wall, simulation.duration));
             floor = true;
         } else if (plane->normal.dot(up) > level) {
             lowest = std::min(lowest, plane->point.dot(up));
@@ -76,12 +78,37 @@ double fall_height(const Simulation& simulation)
     return std::max(0.0, highest - lowest);
 }
 
+/// Of any point of a moving wall, as far as it lies where spheres may be [m/s].
+double fastest_wall(const Simulation& simulation)
+{
+    const auto& model = simulation.model;
+    double fastest = 0.0;
+    for (const auto& wall : model.walls) {
+        if (wall.motion.empty()) continue;
+        constexpr int samples = 1000;
+        const double step = simulation.duration / samples;
+        Box box = bounds(wall.shape);
+        if (box.empty())
+            for (std::size_t i = 0; i < simulation.state.count(); ++i) box.extend(simulation.state.position[i]);
+        if (box.empty()) continue;
+        // Over a hundredth of the time between two samples: a shake must not cancel out.
+        for (int k = 0; k < samples; ++k) {
+            const double time = step * k;
+            const auto pose = pose_at(wall.motion, time);
+            fastest = std::max(fastest,
+                longest_way(pose, pose_at(wall.motion, time + 0.01 * step), placed(pose, box)) / (0.01 * step));
+        }
+    }
+    return fastest;
+}
+
 double fastest_speed(const Simulation& simulation)
 {
     double start = 0.0;
     for (const auto& m : simulation.state.motion) start = std::max({start, m.velocity.norm(), m.rim_velocity.norm()});
     for (const auto& pour : simulation.pours) start = std::max(start, pour.velocity.norm());
-    return std::sqrt(start * start + 2.0 * simulation.model.gravity.norm() * fall_height(simulation));
+    const double fall_gravity = std::abs(simulation.model.gravity.dot(simulation.model.up()));
+    return std::sqrt(start * start + 2.0 * fall_gravity * fall_height(simulation)) + fastest_wall(simulation);
 }
 
 /// The materials that spheres are made of, now or later.

@@ -103,7 +103,7 @@ struct Seen {
 void run_checked(World& world, int steps, Seen& seen)
 {
     for (int k = 0; k < steps; ++k) {
-        update_candidates(world.contacts, world.state, world.model);
+        world.update_candidates();
         seen.pairs += check_pairs(world);
         seen.patches += check_walls(world);
         world.step();
@@ -149,7 +149,7 @@ TEST_CASE("what creeps nearer is listed once it is within reach, from any distan
     world.add_sphere(Vec3::Zero());
     const auto creep = [&](const Vec3& first, const Vec3& second) {
         for (int k = 0; k * step < gap + 0.01 * diameter; ++k) {
-            update_candidates(world.contacts, world.state, world.model);
+            world.update_candidates();
             check_pairs(world);
             check_walls(world);
             world.state.position[0] += first;
@@ -200,7 +200,7 @@ TEST_CASE("impulses stay with their pair when the list is rebuilt and renumbered
     // A row of beads that overlap their neighbours; contact i carries (i + 1, 0, 0) from the bead of lower index.
     World world = make_world({.friction = 0.5}, production_settings(Stabilisation::matched), 1e-4);
     for (int i = 0; i < 20; ++i) world.add_sphere(Vec3(0.0099 * i, 0, 0));
-    update_candidates(world.contacts, world.state, world.model);
+    world.update_candidates();
     const auto slot_of = [&](std::int32_t a, std::int32_t b) {
         const auto& pairs = world.contacts.pairs;
         const auto found = std::find(pairs.begin(), pairs.end(), IndexPair{std::min(a, b), std::max(a, b)});
@@ -216,7 +216,7 @@ TEST_CASE("impulses stay with their pair when the list is rebuilt and renumbered
     renumber_spheres(world.state, new_index, 20);
     renumber_candidates(world.contacts, world.state, world.model, new_index);
     for (auto& x : world.state.position) x.y() += 0.01; // all leave their boxes and are listed anew
-    CHECK(update_candidates(world.contacts, world.state, world.model) == 20);
+    CHECK(world.update_candidates() == 20);
 
     for (std::int32_t i = 0; i < 19; ++i) {
         const auto a = (7 * i) % 20, b = (7 * (i + 1)) % 20;
@@ -232,17 +232,17 @@ TEST_CASE("spheres at rest are not searched for again", "[candidate_search]")
     World world = make_world({}, production_settings(Stabilisation::matched), 1e-4);
     world.model.gravity.setZero();
     for (int i = 0; i < 10; ++i) world.add_sphere(Vec3(0.011 * i, 0, 0));
-    CHECK(update_candidates(world.contacts, world.state, world.model) == 10);
-    CHECK(update_candidates(world.contacts, world.state, world.model) == 0);
+    CHECK(world.update_candidates() == 10);
+    CHECK(world.update_candidates() == 0);
     world.state.position[3].z() += 0.002;
-    CHECK(update_candidates(world.contacts, world.state, world.model) == 1);
+    CHECK(world.update_candidates() == 1);
 }
 
 TEST_CASE("no spheres have no candidates", "[candidate_search][degenerate]")
 {
     World world = make_world({}, production_settings(Stabilisation::matched), 1e-4);
     world.add_plane(Vec3::Zero(), Vec3::UnitZ());
-    CHECK(update_candidates(world.contacts, world.state, world.model) == 0);
+    CHECK(world.update_candidates() == 0);
     world.step();
     CHECK(world.report.candidates == 0);
 }

@@ -125,8 +125,8 @@ TEST_CASE(
 
     // The beginning of the next step, as `advance` does it.
     const Model& model = world.model;
-    update_candidates(world.contacts, world.state, model);
-    assemble_contacts(world.contacts, world.state, model);
+    world.update_candidates();
+    assemble_contacts(world.contacts, world.state, model, world.placed_walls());
     for (Motion& motion : world.state.motion) motion.velocity += model.time_step * model.gravity;
     const auto contacts = dense_contacts(world.contacts);
     REQUIRE(contacts.size() > 20);

@@ -70,12 +70,14 @@ TEST_CASE("a search for some boxes finds each pair that has one of them, once", 
 
 TEST_CASE("no boxes and one box have no pairs", "[neighbor_search][degenerate]")
 {
-    CHECK(find_box_pairs({}).empty());
-    CHECK(find_box_pairs({}, {}).empty());
+    const std::vector<Box> none;
+    const std::vector<std::int32_t> no_movers;
+    CHECK(find_box_pairs(none).empty());
+    CHECK(find_box_pairs(none, no_movers).empty());
     const std::vector<Box> one = {Box{Vec3::Zero(), Vec3::Ones()}};
     CHECK(find_box_pairs(one).empty());
-    CHECK(find_box_pairs(one, {0}).empty());
-    CHECK(find_box_pairs(one, {}).empty());
+    CHECK(find_box_pairs(one, std::vector<std::int32_t>{0}).empty());
+    CHECK(find_box_pairs(one, no_movers).empty());
 }
 
 TEST_CASE("boxes round one centre all meet", "[neighbor_search][degenerate]")

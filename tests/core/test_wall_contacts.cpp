@@ -21,7 +21,8 @@ std::vector<WallPoint> contacts_of(const Shape& shape, const Vec3& x, double rad
     std::vector<std::int32_t> patches(patch_count(shape));
     std::iota(patches.begin(), patches.end(), 0);
     std::vector<WallPoint> points;
-    find_wall_points(shape, patches.data(), patches.size(), x, radius, points);
+    const Wall wall{"wall", shape};
+    find_wall_points(PlacedWall(wall, {}, 0.0), patches.data(), patches.size(), x, radius, points);
     return points;
 }
 

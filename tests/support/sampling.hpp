@@ -9,7 +9,9 @@ namespace talus::test
 /// Shows a sensor spheres that no step has moved.
 inline void sample(Sensor& sensor, const State& state, const Model& model)
 {
-    sensor.sample({state, model, ContactNetwork{}, StepReport{}});
+    const ContactNetwork no_contacts;
+    const StepReport no_step;
+    sensor.sample({state, model, no_contacts, no_step});
 }
 
 } // namespace talus::test

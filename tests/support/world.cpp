@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/world.hpp"
 
+#include "core/candidate_search.hpp"
+
 #include "tests/support/contacts.hpp"
 
 #include <algorithm>
@@ -45,9 +47,21 @@ std::int64_t World::add_sphere(
     return state.id.back();
 }
 
-void World::add_wall(Shape shape)
+void World::add_wall(Shape shape, WallMotion motion)
 {
-    model.walls.push_back({"wall " + std::to_string(model.walls.size()), std::move(shape), wall_material});
+    model.physics.moving_walls = model.physics.moving_walls || !motion.empty();
+    model.walls.push_back({"wall " + std::to_string(model.walls.size()), std::move(shape), wall_material, 0.0, infinity,
+        std::move(motion)});
+}
+
+std::vector<PlacedWall> World::placed_walls() const
+{
+    return place_walls(model.walls, model.periodicity, state.time, model.time_step);
+}
+
+std::size_t World::update_candidates()
+{
+    return talus::update_candidates(contacts, state, model, placed_walls());
 }
 
 void World::step(int count)
@@ -118,6 +132,7 @@ World make_world(
     model.materials.laws = {between_spheres, at_walls, at_walls, at_walls};
     model.physics.rolling = any_law(model.materials, &ContactLaw::rolling_friction);
     model.physics.friction = model.physics.rolling || any_law(model.materials, &ContactLaw::friction);
+    model.physics.spin = model.physics.friction;
     model.physics.restitution = any_law(model.materials, &ContactLaw::restitution);
     return world;
 }

@@ -4,6 +4,7 @@
 #include "core/contact_network.hpp"
 #include "core/diagnostics.hpp"
 #include "core/model.hpp"
+#include "core/placed_wall.hpp"
 #include "core/state.hpp"
 #include "core/time_step.hpp"
 
@@ -47,9 +48,13 @@ struct World {
     std::int64_t add_sphere(const Vec3& position, const Vec3& velocity = Vec3::Zero(),
         const Vec3& angular_velocity = Vec3::Zero(), double radius = standard_radius,
         double density = standard_density);
-    void add_wall(Shape shape);
+    void add_wall(Shape shape, WallMotion motion = {});
     void add_plane(const Vec3& point, const Vec3& normal) { add_wall(Plane{point, normal}); }
     void step(int count = 1);
+
+    // The first phases of a step:
+    std::vector<PlacedWall> placed_walls() const;
+    std::size_t update_candidates();
 
     std::size_t index_of(std::int64_t id) const;
     Vec3 position(std::int64_t id = 0) const { return state.position[index_of(id)]; }

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/placed_wall.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace talus
+{
+namespace
+{
+
+std::array<Vec3, 8> corners(const Box& box)
+{
+    std::array<Vec3, 8> points;
+    for (std::size_t k = 0; k < 8; ++k)
+        for (int d = 0; d < 3; ++d) points[k][d] = (k >> d) & 1 ? box.max[d] : box.min[d];
+    return points;
+}
+
+/// The images of a wall; a plane is its own image, for it is as wide as the world.
+std::vector<Vec3> images_of(const Shape& shape, const Periodicity& periodicity)
+{
+    if (std::holds_alternative<Plane>(shape)) return {Vec3::Zero()};
+    return periodicity.neighbor_shifts();
+}
+
+} // namespace
+
+PlacedWall::PlacedWall(const Wall& wall, const Periodicity& periodicity, double time, double step)
+    : wall_(&wall), shape_patches_(talus::patch_count(wall.shape)), images_(images_of(wall.shape, periodicity)),
+      stands_(wall.stands_at(time))
+{
+    if (wall.motion.empty()) return;
+    pose_ = pose_at(wall.motion, time);
+    back_ = pose_.inverse();
+    if (step > 0.0) twist_ = twist_between(pose_, pose_at(wall.motion, time + step), step);
+}
+
+WallPoint PlacedWall::nearest_point(std::size_t patch, const Vec3& x) const
+{
+    const auto of_shape = [&](std::size_t k, const Vec3& place) {
+        auto at = talus::nearest_point(wall_->shape, k, place);
+        at.patch = static_cast<std::int32_t>(patch);
+        return at;
+    };
+    const auto image = patch / shape_patches_;
+    if (image == 0 && !moves()) return of_shape(patch, x);
+    auto at = of_shape(patch % shape_patches_, back_(x - images_[image]));
+    at.point = pose_(at.point) + images_[image];
+    at.normal = pose_.rotation * at.normal;
+    return at;
+}
+
+void PlacedWall::patches_near(const Box& box, std::vector<std::int32_t>& patches) const
+{
+    for (std::size_t image = 0; image < images_.size(); ++image) {
+        const Box shifted = box.shifted(-images_[image]);
+        const auto first = patches.size();
+        talus::patches_near(wall_->shape, moves() ? placed(back_, shifted) : shifted, patches);
+        for (auto k = first; k < patches.size(); ++k) patches[k] += static_cast<std::int32_t>(image * shape_patches_);
+    }
+}
+
+double PlacedWall::gap(const Vec3& center, double radius, double within) const
+{
+    std::vector<std::int32_t> patches;
+    patches_near(Box{center, center}.grown(radius + within), patches);
+    double least = infinity;
+    for (const auto k : patches)
+        least = std::min(least, nearest_point(static_cast<std::size_t>(k), center).distance - radius);
+    return least <= within ? least : infinity;
+}
+
+double PlacedWall::fastest(const Box& box) const
+{
+    double speed = 0.0;
+    for (const Vec3& x : corners(box)) speed = std::max(speed, twist_.at(x).norm());
+    return speed;
+}
+
+std::vector<PlacedWall> place_walls(
+    const std::vector<Wall>& walls, const Periodicity& periodicity, double time, double step)
+{
+    std::vector<PlacedWall> result;
+    result.reserve(walls.size());
+    for (const auto& wall : walls) result.emplace_back(wall, periodicity, time, step);
+    return result;
+}
+
+bool touches_wall(const std::vector<PlacedWall>& walls, const Vec3& center, double radius)
+{
+    return std::any_of(walls.begin(), walls.end(),
+        [&](const PlacedWall& wall) { return wall.stands() && wall.gap(center, radius) < 0.0; });
+}
+
+double longest_way(const Pose& from, const Pose& to, const Box& box)
+{
+    const Pose change = to.after(from.inverse());
+    double longest = 0.0;
+    for (const Vec3& x : corners(box)) longest = std::max(longest, (change(x) - x).norm());
+    return longest;
+}
+
+} // namespace talus

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/periodicity.hpp"
+#include "core/wall.hpp"
+
+#include <vector>
+
+namespace talus
+{
+
+/// A wall as it stands at a time, with its images along periodic axes: what search and assembly see of it.
+///
+/// Its patches are those of the shape, once for each image: patch k of image i is number i × (patches of the shape) +
+/// k. Points and normals are in the world's frame; the shape, and a mesh's tree, stay in the wall's own.
+class PlacedWall
+{
+public:
+    /// @param step h [s] over which `velocity` is the mean; 0: only the place is wanted
+    PlacedWall(const Wall& wall, const Periodicity& periodicity, double time, double step = 0.0);
+
+    const Wall& wall() const { return *wall_; }
+    const Pose& pose() const { return pose_; }
+    bool stands() const { return stands_; }
+    bool moves() const { return !wall_->motion.empty(); }
+
+    std::size_t patch_count() const { return images_.size() * shape_patches_; }
+
+    /// The point of a patch nearest to x.
+    WallPoint nearest_point(std::size_t patch, const Vec3& x) const;
+
+    /// Appends the patches that may meet the box (all that do, perhaps a few more) in ascending order.
+    void patches_near(const Box& box, std::vector<std::int32_t>& patches) const;
+
+    /// The gap between the wall and the ball [m], or infinity where it is wider than `within`.
+    double gap(const Vec3& center, double radius, double within = 0.0) const;
+
+    /// The velocity of the wall's material at a place near this patch, the mean over the step that begins now [m/s].
+    Vec3 velocity(std::size_t patch, const Vec3& x) const { return twist_.at(x - images_[patch / shape_patches_]); }
+    const Vec3& spin() const { return twist_.spin; } ///< likewise [rad/s]
+
+    /// The fastest that its material moves anywhere in the box [m/s].
+    double fastest(const Box& box) const;
+
+private:
+    const Wall* wall_;
+    std::size_t shape_patches_;
+    std::vector<Vec3> images_; ///< shifts [m], the first is zero
+    Pose pose_, back_;
+    Twist twist_;
+    bool stands_;
+};
+
+/// All walls as they stand at a time. @param step as above
+std::vector<PlacedWall> place_walls(
+    const std::vector<Wall>& walls, const Periodicity& periodicity, double time, double step = 0.0);
+
+/// Whether the ball reaches into a wall that stands.
+bool touches_wall(const std::vector<PlacedWall>& walls, const Vec3& center, double radius);
+
+/// The longest way that a point of the box makes from one pose of a wall to another [m].
+double longest_way(const Pose& from, const Pose& to, const Box& box);
+
+} // namespace talus
