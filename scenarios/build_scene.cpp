@@ -2,6 +2,7 @@
 #include "scenarios/build_scene.hpp"
 
 #include "scenarios/build_materials.hpp"
+#include "scenarios/build_output.hpp"
 #include "scenarios/build_region.hpp"
 #include "scenarios/build_sensors.hpp"
 #include "scenarios/build_solver.hpp"
@@ -54,6 +55,7 @@ Model build_model(const scene::Scene& scene)
     model.gravity = scene.world.gravity;
     model.materials = build_materials(scene);
     model.physics = needed_physics(model.materials);
+    model.physics.wall_loads = needs_wall_loads(scene);
     model.walls = build_walls(scene, model.materials);
     model.outlets = build_outlets(scene);
     find_diameters(model, scene);
@@ -92,7 +94,8 @@ Simulation build_scene(const scene::Scene& scene)
     Random random(static_cast<std::uint64_t>(scene.seed));
     fill_spheres(simulation, scene, random);
     simulation.pours = build_pours(scene, model, random);
-    simulation.sensors = build_sensors(scene);
+    simulation.sensors = build_sensors(scene, model.walls);
+    simulation.output = build_output(scene);
     simulation.duration = scene.time.duration;
 
     const auto choice = choose_step(scene, simulation);
