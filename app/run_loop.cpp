@@ -11,23 +11,13 @@ namespace
 /// A share of a step; when no more than that is missing to the end, only rounding is to blame.
 constexpr double negligible_step = 1e-3;
 
-/// A unit as it stands in a column's name: kg/s becomes _kg_per_s.
-std::string unit_suffix(const std::string& unit)
-{
-    const auto slash = unit.find('/');
-    if (unit.empty() || unit == "1") return "";
-    if (slash == std::string::npos) return fmt::format("_{}", unit);
-    const std::string above = unit.substr(0, slash), below = unit.substr(slash + 1);
-    return above == "1" ? fmt::format("_per_{}", below) : fmt::format("_{}_per_{}", above, below);
-}
-
 std::vector<std::string> metrics_columns(const Simulation& simulation)
 {
     std::vector<std::string> columns = {"time_s", "spheres", "inserted", "left", "contacts", "sweeps", "residual",
         "worst_overlap_d", "mean_overlap_d", "kinetic_energy_J", "potential_energy_J", "contact_energy_J"};
     for (const auto& sensor : simulation.sensors)
         for (const Measurement& m : sensor->latest())
-            columns.push_back(fmt::format("{}_{}{}", sensor->name, m.name, unit_suffix(m.unit)));
+            columns.push_back(column_name(fmt::format("{}_{}", sensor->name, m.name), m.unit));
     return columns;
 }
 
@@ -42,7 +32,7 @@ std::vector<bool> standing_walls(const Model& model, double time)
 
 RunLoop::RunLoop(
     Simulation& simulation, const scene::Scene& scene, const std::filesystem::path& folder, Progress& progress)
-    : simulation_(simulation), contact_threshold_(scene.output.contact_threshold), progress_(progress), frames_(folder),
+    : simulation_(simulation), folder_(folder), progress_(progress), frames_(folder),
       metrics_(folder / "metrics.csv", metrics_columns(simulation)), metrics_schedule_(scene.time.metrics_interval),
       particle_schedule_(scene.time.frame_interval), contact_schedule_(scene.output.contact_interval)
 {
@@ -108,6 +98,7 @@ void RunLoop::write_the_rest(const StepReport& report)
         if (report.incidents.empty()) sample_sensors(report);
         write_metrics(report);
     }
+    write_tables();
 }
 
 void RunLoop::sample_sensors(const StepReport& report)
@@ -131,15 +122,21 @@ void RunLoop::write_metrics(const StepReport& report)
     last_metrics_ = state.steps;
 }
 
+void RunLoop::write_tables()
+{
+    for (const auto& sensor : simulation_.sensors)
+        if (const auto table = sensor->table()) write_table(folder_, sensor->name, *table);
+}
+
 void RunLoop::write_particles()
 {
-    frames_.write_particles(simulation_.state);
+    frames_.write_particles(simulation_);
     last_particles_ = simulation_.state.steps;
 }
 
 void RunLoop::write_contacts()
 {
-    frames_.write_contacts(simulation_, contact_threshold_);
+    frames_.write_contacts(simulation_);
     last_contacts_ = simulation_.state.steps;
 }
 

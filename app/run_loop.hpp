@@ -41,12 +41,13 @@ private:
 
     void sample_sensors(const StepReport& report);
     void write_metrics(const StepReport& report);
+    void write_tables();
     void write_particles();
     void write_contacts();
     void write_walls();
 
     Simulation& simulation_;
-    double contact_threshold_;
+    std::filesystem::path folder_;
     Progress& progress_;
     FrameWriter frames_;
     MetricsFile metrics_;

@@ -19,9 +19,31 @@ MassFlow::MassFlow(std::string sensor_name, const Vec3& point, const Vec3& norma
 {
 }
 
+double MassFlow::cell_length(const Periodicity& periodicity) const
+{
+    int axis = 0;
+    normal_.cwiseAbs().maxCoeff(&axis);
+    return periodicity.length[axis];
+}
+
+void MassFlow::watch(const Snapshot& now)
+{
+    const double length = cell_length(now.model.periodicity);
+    if (length == infinity) return;
+    for (const auto& m : now.state.motion) {
+        const double passed = normal_.dot(m.velocity) * now.model.time_step / length;
+        flowed_mass_ += passed / m.inverse_mass;
+        flowed_count_ += passed;
+    }
+}
+
 void MassFlow::sample(const Snapshot& now)
 {
     const State& state = now.state;
+    if (cell_length(now.model.periodicity) < infinity) {
+        samples_.push_back({state.time, flowed_mass_, flowed_count_});
+        return;
+    }
     double behind = 0.0;
     std::int64_t behind_count = 0;
     for (std::size_t i = 0; i < state.count(); ++i) {

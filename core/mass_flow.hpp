@@ -9,6 +9,9 @@ namespace talus
 /// Mass flow through a plane: how fast the mass that was inserted and is no longer behind the plane grows. Spheres that
 /// left through an outlet have passed, wherever the outlet is.
 ///
+/// Through a plane across a periodic axis, where nothing is behind or beyond, it is the mean over all such planes: in a
+/// step Σ m v·n h / length of the cell passes.
+///
 /// The rate is the least-squares slope of the passed mass over [from, to]; its spread is the standard error of the
 /// slopes of five equal parts of that window.
 class MassFlow : public Sensor
@@ -17,10 +20,11 @@ public:
     /// @param normal unit, the direction of the flow; @param from, to the steady window [s]
     MassFlow(std::string name, const Vec3& point, const Vec3& normal, double from, double to);
 
+    void watch(const Snapshot& now) override;
     void sample(const Snapshot& now) override;
     std::vector<Measurement> latest() const override;
     std::vector<Measurement> results() const override;
-    void persist(Archive& archive) override { archive(samples_); }
+    void persist(Archive& archive) override { archive(samples_, flowed_mass_, flowed_count_); }
 
 private:
     struct Sample {
@@ -29,6 +33,10 @@ private:
     Vec3 point_, normal_;
     double from_, to_;
     std::vector<Sample> samples_;
+    double flowed_mass_ = 0.0, flowed_count_ = 0.0; ///< through planes across a periodic axis [kg], [1]
+
+    /// The length of the cell along the normal [m]; infinite where that axis is not periodic.
+    double cell_length(const Periodicity& periodicity) const;
 };
 
 } // namespace talus

@@ -30,6 +30,17 @@ struct Surface {
         return mean.mean();
     }
 
+    /// Outer radius of the last ring before the first that lacks spheres in more than half of its sectors.
+    double foot() const
+    {
+        std::size_t ring = 0;
+        const auto covered = [&] {
+            return std::count(top[ring].begin(), top[ring].end(), nothing) <= static_cast<std::ptrdiff_t>(sectors / 2);
+        };
+        while (ring < top.size() && (ring < 3 || covered())) ++ring; // the first rings are smaller than their sectors
+        return static_cast<double>(ring) * ring_width;
+    }
+
     double radius(std::size_t ring) const { return (static_cast<double>(ring) + 0.5) * ring_width; }
 };
 
@@ -79,6 +90,7 @@ void Repose::sample(const Snapshot& now)
 {
     const Vec3 up = -now.model.gravity.normalized();
     const auto surface = find_surface(now.state, base_, up, now.model.mean_diameter);
+    foot_ = surface.foot();
     apex_ = 0.0;
     for (std::size_t ring = 0; ring < surface.top.size(); ++ring) {
         const double mean = surface.ring_mean(ring, 0, sectors);
@@ -104,12 +116,12 @@ void Repose::sample(const Snapshot& now)
 
 std::vector<Measurement> Repose::latest() const
 {
-    return {{"angle", angle_, 0.0, "deg"}, {"apex", apex_, 0.0, "m"}};
+    return {{"angle", angle_, 0.0, "deg"}, {"apex", apex_, 0.0, "m"}, {"foot", foot_, 0.0, "m"}};
 }
 
 std::vector<Measurement> Repose::results() const
 {
-    return {{"angle", angle_, spread_, "deg"}, {"apex", apex_, 0.0, "m"}};
+    return {{"angle", angle_, spread_, "deg"}, {"apex", apex_, 0.0, "m"}, {"foot", foot_, 0.0, "m"}};
 }
 
 } // namespace talus

@@ -7,6 +7,7 @@
 #include "core/state.hpp"
 #include "core/time_step.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,16 @@ struct Measurement {
     double value = 0.0;
     double spread = 0.0;
     std::string unit;
+};
+
+/// Results that are too many for names: a row for each place, say.
+struct Table {
+    struct Column {
+        std::string name;
+        std::string unit;
+    };
+    std::vector<Column> columns;
+    std::vector<std::vector<double>> rows; ///< as long as there are columns
 };
 
 /// What a sensor may look at after a step: the spheres as they are, the contacts that the step solved, and its report.
@@ -52,6 +63,9 @@ public:
 
     /// The results over all samples so far.
     virtual std::vector<Measurement> results() const = 0;
+
+    /// The results that have a file of their own, for the sensors that have some.
+    virtual std::optional<Table> table() const { return std::nullopt; }
 
     /// Stores or puts back what the sensor has seen so far, for checkpoints.
     virtual void persist(Archive& archive) = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/frames.hpp"
 
+#include "core/loaded_contacts.hpp"
+#include "core/sphere_load.hpp"
 #include "io/input_error.hpp"
 #include "io/poly_data.hpp"
 #include "io/run_files.hpp"
@@ -33,39 +35,43 @@ struct ContactLine {
     std::int32_t wall; ///< −1 between spheres
 };
 
-std::vector<std::size_t> order_by_id(const State& state)
+bool is_asked_for(const std::vector<std::string>& arrays, const char* name)
 {
-    std::vector<std::size_t> order(state.count());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::sort(order, {}, [&](std::size_t i) { return state.id[i]; });
-    return order;
+    return std::ranges::find(arrays, name) != arrays.end();
 }
 
-/// Calls use(contact, geometry) for each contact of the step that has an impulse.
-/// @param first_of_tile where the contacts of each tile begin
-void for_each_loaded(const ContactArrays& contacts, const std::vector<std::uint32_t>& first_of_tile, auto&& use)
+bool shows(const OutputChoice& output, const Vec3& point)
 {
-    for (std::size_t tile = 0; tile < contacts.count.size(); ++tile)
-        for (std::size_t k = first_of_tile[tile]; k < first_of_tile[tile] + contacts.count[tile]; ++k)
-            if (!contacts.contact[k].impulse.isZero(0.0)) use(contacts.contact[k], contacts.geometry[k]);
+    return !output.region || output.region->contains(point);
+}
+
+/// The spheres to be shown, in the order of their ids.
+std::vector<std::size_t> shown_spheres(const State& state, const OutputChoice& output)
+{
+    std::vector<std::size_t> shown;
+    for (std::size_t i = 0; i < state.count(); ++i)
+        if (shows(output, state.position[i])) shown.push_back(i);
+    std::ranges::sort(shown, {}, [&](std::size_t i) { return state.id[i]; });
+    return shown;
 }
 
 std::vector<ContactLine> loaded_contacts(const Simulation& simulation)
 {
     const State& state = simulation.state;
-    const ContactNetwork& network = simulation.contacts;
     const double h = simulation.model.time_step;
     std::vector<ContactLine> lines;
-    for_each_loaded(network.sphere_contacts, network.pairs_of_tile, [&](const Contact& c, const ContactGeometry& g) {
-        const Vec3 across = simulation.model.periodicity.nearest_image(state.position[c.b] - state.position[c.a]);
-        lines.push_back({state.position[c.a], state.position[c.a] + across, c.impulse / h, c.impulse.dot(c.normal) / h,
-            g.gap, state.id[c.a], state.id[c.b], -1});
+    const auto add = [&](const Contact& c, const ContactGeometry& g, double length, std::int64_t id_b, int wall) {
+        const Vec3& x = state.position[c.a];
+        const Vec3 point = x - state.radius(c.a) * c.normal;
+        if (shows(simulation.output, point))
+            lines.push_back({x, x - length * c.normal, c.impulse / h, c.impulse.dot(c.normal) / h, g.gap, state.id[c.a],
+                id_b, wall});
+    };
+    for_each_loaded_sphere_contact(simulation.contacts, [&](const Contact& c, const ContactGeometry& g) {
+        add(c, g, state.radius(c.a) + state.radius(c.b) + g.gap, state.id[c.b], -1);
     });
-    for_each_loaded(network.wall_contacts, network.wall_slots_of_tile, [&](const Contact& c, const ContactGeometry& g) {
-        const Vec3 touching = state.position[c.a] - (state.radius(c.a) + g.gap) * c.normal;
-        lines.push_back(
-            {state.position[c.a], touching, c.impulse / h, c.impulse.dot(c.normal) / h, g.gap, state.id[c.a], -1, c.b});
-    });
+    for_each_loaded_wall_contact(simulation.contacts,
+        [&](const Contact& c, const ContactGeometry& g) { add(c, g, state.radius(c.a) + g.gap, -1, c.b); });
     return lines;
 }
 
@@ -74,6 +80,41 @@ void drop_weaker_than(double threshold, std::vector<ContactLine>& lines)
     const auto add = [](double sum, const ContactLine& line) { return sum + line.force.norm(); };
     const double mean = std::accumulate(lines.begin(), lines.end(), 0.0, add) / static_cast<double>(lines.size());
     std::erase_if(lines, [&](const ContactLine& line) { return line.force.norm() <= threshold * mean; });
+}
+
+void add_particle_arrays(vtkPointData& data, const Simulation& simulation, const std::vector<std::size_t>& shown)
+{
+    const State& state = simulation.state;
+    const std::size_t count = shown.size();
+    const auto asked = [&](const char* name) { return is_asked_for(simulation.output.particle_arrays, name); };
+    add_integers(data, "id", count, [&](std::size_t k) { return state.id[shown[k]]; });
+    add_floats(data, "radius", count, [&](std::size_t k) { return state.radius(shown[k]); });
+    if (asked("velocity"))
+        add_vectors(data, "velocity", count, [&](std::size_t k) { return state.motion[shown[k]].velocity; });
+    if (asked("angular_velocity"))
+        add_vectors(data, "angular_velocity", count, [&](std::size_t k) { return state.angular_velocity(shown[k]); });
+    if (asked("material"))
+        add_integers(data, "material", count, [&](std::size_t k) { return state.material[shown[k]]; });
+    if (!asked("force") && !asked("coordination")) return;
+    const auto loads = sphere_loads(simulation.contacts, state.count());
+    const double h = simulation.model.time_step;
+    if (asked("force")) add_vectors(data, "force", count, [&](std::size_t k) { return loads[shown[k]].impulse / h; });
+    if (asked("coordination"))
+        add_integers(data, "coordination", count, [&](std::size_t k) { return loads[shown[k]].contacts; });
+}
+
+void add_contact_arrays(
+    vtkCellData& data, const std::vector<std::string>& arrays, const std::vector<ContactLine>& lines)
+{
+    const std::size_t count = lines.size();
+    const auto asked = [&](const char* name) { return is_asked_for(arrays, name); };
+    if (asked("force")) add_vectors(data, "force", count, [&](std::size_t k) { return lines[k].force; });
+    if (asked("normal_force"))
+        add_floats(data, "normal_force", count, [&](std::size_t k) { return lines[k].normal_force; });
+    if (asked("gap")) add_floats(data, "gap", count, [&](std::size_t k) { return lines[k].gap; });
+    if (asked("id_a")) add_integers(data, "id_a", count, [&](std::size_t k) { return lines[k].id_a; });
+    if (asked("id_b")) add_integers(data, "id_b", count, [&](std::size_t k) { return lines[k].id_b; });
+    if (asked("wall")) add_integers(data, "wall", count, [&](std::size_t k) { return lines[k].wall; });
 }
 
 } // namespace
@@ -85,47 +126,35 @@ FrameWriter::FrameWriter(std::filesystem::path folder) : folder_(std::move(folde
     if (error) throw OutputError(fmt::format("{}: cannot be made: {}", (folder_ / "frames").string(), error.message()));
 }
 
-void FrameWriter::write_particles(const State& state)
+void FrameWriter::write_particles(const Simulation& simulation)
 {
-    const std::vector<std::size_t> order = order_by_id(state);
-    const std::size_t count = order.size();
+    const State& state = simulation.state;
+    const std::vector<std::size_t> shown = shown_spheres(state, simulation.output);
+    const std::size_t count = shown.size();
     vtkNew<vtkPolyData> geometry;
-    set_points(*geometry, count, [&](std::size_t k) { return state.position[order[k]]; });
+    set_points(*geometry, count, [&](std::size_t k) { return state.position[shown[k]]; });
 
     // One cell of all points: without any cell ParaView shows nothing, and one for each would double the file.
     vtkNew<vtkCellArray> cells;
     if (count > 0) cells->InsertNextCell(static_cast<int>(count));
     for (std::size_t k = 0; k < count; ++k) cells->InsertCellPoint(static_cast<vtkIdType>(k));
     geometry->SetVerts(cells);
-
-    vtkPointData& data = *geometry->GetPointData();
-    add_integers(data, "id", count, [&](std::size_t k) { return state.id[order[k]]; });
-    add_floats(data, "radius", count, [&](std::size_t k) { return state.radius(order[k]); });
-    add_vectors(data, "velocity", count, [&](std::size_t k) { return state.motion[order[k]].velocity; });
-    add_vectors(data, "angular_velocity", count, [&](std::size_t k) { return state.angular_velocity(order[k]); });
-    add_integers(data, "material", count, [&](std::size_t k) { return state.material[order[k]]; });
+    add_particle_arrays(*geometry->GetPointData(), simulation, shown);
     add_frame(particles_, state.time, *geometry);
 }
 
-void FrameWriter::write_contacts(const Simulation& simulation, double threshold)
+void FrameWriter::write_contacts(const Simulation& simulation)
 {
     std::vector<ContactLine> lines = loaded_contacts(simulation);
-    drop_weaker_than(threshold, lines);
-    const std::size_t count = lines.size();
+    drop_weaker_than(simulation.output.contact_threshold, lines);
     vtkNew<vtkPolyData> geometry;
-    set_points(*geometry, 2 * count, [&](std::size_t p) { return p % 2 == 0 ? lines[p / 2].from : lines[p / 2].to; });
+    set_points(
+        *geometry, 2 * lines.size(), [&](std::size_t p) { return p % 2 == 0 ? lines[p / 2].from : lines[p / 2].to; });
     vtkNew<vtkCellArray> cells;
-    for (vtkIdType first = 0; first < static_cast<vtkIdType>(2 * count); first += 2)
+    for (vtkIdType first = 0; first < static_cast<vtkIdType>(2 * lines.size()); first += 2)
         cells->InsertNextCell({first, first + 1});
     geometry->SetLines(cells);
-
-    vtkCellData& data = *geometry->GetCellData();
-    add_vectors(data, "force", count, [&](std::size_t k) { return lines[k].force; });
-    add_floats(data, "normal_force", count, [&](std::size_t k) { return lines[k].normal_force; });
-    add_floats(data, "gap", count, [&](std::size_t k) { return lines[k].gap; });
-    add_integers(data, "id_a", count, [&](std::size_t k) { return lines[k].id_a; });
-    add_integers(data, "id_b", count, [&](std::size_t k) { return lines[k].id_b; });
-    add_integers(data, "wall", count, [&](std::size_t k) { return lines[k].wall; });
+    add_contact_arrays(*geometry->GetCellData(), simulation.output.contact_arrays, lines);
     add_frame(contacts_, simulation.state.time, *geometry);
 }
 

@@ -23,15 +23,15 @@ public:
     /// @throws OutputError
     explicit FrameWriter(std::filesystem::path folder);
 
-    /// The spheres, in the order of their ids.
+    /// The spheres, in the order of their ids, with the arrays that `Simulation::output` asks for.
+    /// @pre for `force` and `coordination`: no sphere was removed or renumbered since the last step
     /// @throws OutputError
-    void write_particles(const State& state);
+    void write_particles(const Simulation& simulation);
 
-    /// Contacts of the last step as lines with `force` (on the first sphere), `normal_force` [N], `gap`, ids.
-    /// @param threshold contacts with no more force than this are left out, in mean forces
+    /// Contacts of the last step as lines, with the arrays that `Simulation::output` asks for.
     /// @pre no sphere was removed or renumbered since that step
     /// @throws OutputError
-    void write_contacts(const Simulation& simulation, double threshold);
+    void write_contacts(const Simulation& simulation);
 
     /// The walls that stand at this time, as triangles with the wall's index. Planes are drawn as large as the world.
     /// @throws OutputError

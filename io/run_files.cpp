@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cerrno>
@@ -26,6 +27,9 @@ namespace fs = std::filesystem;
 /// The file that marks a folder as a run of Talus.
 constexpr const char* marker = "scene.resolved.toml";
 
+/// With which the files of tables begin.
+constexpr const char* profile_prefix = "profile_";
+
 [[noreturn]] void refuse_output(const fs::path& path, const std::string& reason)
 {
     throw OutputError(fmt::format("{}: cannot be written: {}", path.string(), reason));
@@ -34,6 +38,7 @@ constexpr const char* marker = "scene.resolved.toml";
 /// Whether a run of Talus writes a file of this name into its folder or its `frames`.
 bool is_output_of_a_run(const std::string& name)
 {
+    if (name.starts_with(profile_prefix) && (name.ends_with(".csv") || name.ends_with(".csv.tmp"))) return true;
     constexpr std::array<std::string_view, 3> files = {"metrics.csv", "summary.json", marker};
     constexpr std::array<std::string_view, 4> series = {"particles", "contacts", "walls", "checkpoint"};
     for (const std::string_view file : files)
@@ -68,6 +73,17 @@ bool write_all(int descriptor, std::string_view bytes)
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
     return ::fsync(descriptor) == 0;
+}
+
+/// A unit as it stands in a column's name: kg/s becomes _kg_per_s.
+std::string unit_suffix(std::string unit)
+{
+    if (unit.empty() || unit == "1") return "";
+    std::ranges::replace(unit, ' ', '_');
+    const auto slash = unit.find('/');
+    if (slash == std::string::npos) return fmt::format("_{}", unit);
+    const std::string above = unit.substr(0, slash), below = unit.substr(slash + 1);
+    return above == "1" ? fmt::format("_per_{}", below) : fmt::format("_{}_per_{}", above, below);
 }
 
 std::string csv_field(const std::string& name)
@@ -111,6 +127,20 @@ void write_atomically(const fs::path& path, const std::string& text)
     const std::string reason = std::strerror(failure != 0 ? failure : errno);
     ::unlink(temporary.c_str());
     refuse_output(path, reason);
+}
+
+std::string column_name(const std::string& name, const std::string& unit)
+{
+    return name + unit_suffix(unit);
+}
+
+void write_table(const fs::path& folder, const std::string& name, const Table& table)
+{
+    std::vector<std::string> fields;
+    for (const auto& [column, unit] : table.columns) fields.push_back(csv_field(column_name(column, unit)));
+    std::string text = fmt::format("{}\n", fmt::join(fields, ","));
+    for (const auto& row : table.rows) text += fmt::format("{}\n", fmt::join(row, ","));
+    write_atomically(folder / fmt::format("{}{}.csv", profile_prefix, name), text);
 }
 
 MetricsFile::MetricsFile(const fs::path& path, const std::vector<std::string>& columns)

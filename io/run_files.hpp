@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/sensor.hpp"
+
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -18,6 +20,13 @@ void make_run_folder(const std::filesystem::path& folder, const std::string& res
 /// Writes a whole file at once: to a temporary name, flushed to the disk, then renamed.
 /// @throws OutputError
 void write_atomically(const std::filesystem::path& path, const std::string& text);
+
+/// A name with its unit, as columns are called: mass_flow_kg_per_s.
+std::string column_name(const std::string& name, const std::string& unit);
+
+/// Writes the table of a sensor into the run's folder as profile_NAME.csv: names with units, then a row a line.
+/// @throws OutputError
+void write_table(const std::filesystem::path& folder, const std::string& name, const Table& table);
 
 /// metrics.csv: a header of names with units, then a row a sample, flushed at once.
 class MetricsFile

@@ -82,7 +82,10 @@ def start_under_xvfb():
 
 
 def array(poly_data, name):
-    return vtk_to_numpy(poly_data.GetPointData().GetArray(name))
+    values = poly_data.GetPointData().GetArray(name)
+    if values is None:
+        raise RunError(f"The frames hold no '{name}'; see particle_arrays in the scene's [output].")
+    return vtk_to_numpy(values)
 
 
 def colour_values(grains, color_by):

@@ -2,6 +2,7 @@
 #include "scenarios/build_scene.hpp"
 
 #include "scenarios/build_materials.hpp"
+#include "scenarios/build_output.hpp"
 #include "scenarios/build_region.hpp"
 #include "scenarios/build_sensors.hpp"
 #include "scenarios/build_solver.hpp"
@@ -54,6 +55,7 @@ Model build_model(const scene::Scene& scene)
     model.gravity = scene.world.gravity;
     model.materials = build_materials(scene);
     model.physics = needed_physics(scene, model.materials);
+    model.physics.wall_loads = needs_wall_loads(scene);
     find_diameters(model, scene);
     model.periodicity = build_periodicity(scene, model.max_diameter);
     model.walls = build_walls(scene, model.materials, model.periodicity);
@@ -96,7 +98,8 @@ Simulation build_scene(const scene::Scene& scene)
     Random random(static_cast<std::uint64_t>(scene.seed));
     fill_spheres(simulation, scene, random);
     simulation.pours = build_pours(scene, model, random);
-    simulation.sensors = build_sensors(scene);
+    simulation.sensors = build_sensors(scene, model);
+    simulation.output = build_output(scene);
     simulation.duration = scene.time.duration;
 
     const auto choice = choose_step(scene, simulation);

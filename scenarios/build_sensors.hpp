@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/sensor.hpp"
+#include "core/wall.hpp"
 #include "scenarios/scene.hpp"
 
 #include <memory>
@@ -11,6 +12,9 @@ namespace talus
 {
 
 /// The sensors in the order of the scene. @throws SceneError where one has nothing to measure
-std::vector<std::unique_ptr<Sensor>> build_sensors(const scene::Scene& scene);
+std::vector<std::unique_ptr<Sensor>> build_sensors(const scene::Scene& scene, const Model& model);
+
+/// Whether a sensor of the scene asks for the load on walls in every step.
+bool needs_wall_loads(const scene::Scene& scene);
 
 } // namespace talus

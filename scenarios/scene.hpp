@@ -186,9 +186,11 @@ struct RegionTable {
     double radius = 0.0;
     double height = 0.0;
 
-    static void describe(auto& self, auto&& key)
+    static void describe(auto& self, auto&& key) { describe(self, key, {"box", "cylinder"}); }
+
+    static void describe(auto& self, auto&& key, std::vector<std::string_view> shapes)
     {
-        key("shape", self.shape, deciding(one_of({"box", "cylinder"})), "", "");
+        key("shape", self.shape, deciding(one_of(std::move(shapes))), "", "");
         key("min", self.min, only_for({"box"}, any()), "m", "lower corner");
         key("max", self.max, required(only_for({"box"}, any())), "m", "upper corner");
         key("base", self.base, only_for({"cylinder"}, any()), "m", "centre of the first end");
@@ -383,27 +385,50 @@ struct OutletTable {
     }
 };
 
+/// Kinds: mass_flow through a plane; repose, the angle of a heap; region: packing fraction, coordination, velocity,
+/// granular temperature and stress in it; profile: packing and flow in the bins of a region; wall_force: force and
+/// torque on a wall.
 struct SensorTable {
     std::string name;
     std::string kind;
-    // mass_flow
-    Vec3 point = Vec3::Zero();
-    Vec3 normal = -Vec3::UnitZ();
+    // the steady part of the run, for all but repose
     double from = 0.0;
     double to = infinity;
+    // mass_flow and wall_force
+    Vec3 point = Vec3::Zero();
+    Vec3 normal = -Vec3::UnitZ();
+    std::string wall;
+    // slope
+    Vec3 along = Vec3::UnitX();
+    double length = 0.0;
     // repose
     Vec3 base = Vec3::Zero();
     double inner_radius = 0.0;
     double outer_radius = 0.0;
+    // region and profile
+    RegionTable region;
+    std::string direction;
+    std::int64_t bins = 20;
 
     static void describe(auto& self, auto&& key)
     {
+        const std::vector<std::string_view> averaging = {"mass_flow", "slope", "region", "profile", "wall_force"};
         key("name", self.name, required(any()), "", "for reports");
-        key("kind", self.kind, required(deciding(one_of({"mass_flow", "repose"}))), "", "");
-        key("point", self.point, only_for({"mass_flow"}, any()), "m", "a point on the plane");
+        key("kind", self.kind,
+            required(deciding(one_of({"mass_flow", "repose", "slope", "region", "profile", "wall_force"}))), "", "");
+        key("point", self.point, only_for({"mass_flow", "slope", "wall_force"}, any()), "m",
+            "mass_flow: a point on the plane; slope: the middle of the surface; wall_force: what torques are about");
         key("normal", self.normal, only_for({"mass_flow"}, any()), "", "direction of the flow");
-        key("from", self.from, only_for({"mass_flow"}, at_least(0.0)), "s", "start of the steady part");
-        key("to", self.to, only_for({"mass_flow"}, or_infinite(at_least(0.0))), "s", "end of the steady part");
+        key("along", self.along, required(only_for({"slope"}, any())), "",
+            "direction along which the surface falls, at right angles to gravity");
+        key("length", self.length, required(only_for({"slope"}, above(0.0))), "m", "of the measured part");
+        key("wall", self.wall, required(only_for({"wall_force"}, any())), "", "name of the wall");
+        key("region", self.region, required(only_for({"region", "profile"}, any())), "", "where");
+        key("direction", self.direction, required(only_for({"profile"}, one_of({"x", "y", "z", "axial", "radial"}))),
+            "", "in which bin follows bin: x, y or z in a box; axial or radial in a cylinder");
+        key("bins", self.bins, only_for({"profile"}, between(1, 10000)), "", "how many, equally wide");
+        key("from", self.from, only_for(averaging, at_least(0.0)), "s", "start of the steady part");
+        key("to", self.to, only_for(averaging, or_infinite(at_least(0.0))), "s", "end of the steady part");
         key("base", self.base, only_for({"repose"}, any()), "m", "centre of the heap's floor");
         key("inner_radius", self.inner_radius, only_for({"repose"}, at_least(0.0)), "m",
             "where the fitted line begins");
@@ -412,16 +437,37 @@ struct SensorTable {
     }
 };
 
-struct OutputTable {
-    double contact_interval = infinity;
-    double contact_threshold = 0.0;
+/// A region that may be all there is.
+struct PartTable : RegionTable {
+    PartTable() { shape = "everything"; }
 
     static void describe(auto& self, auto&& key)
     {
+        RegionTable::describe(self, key, {"everything", "box", "cylinder"});
+    }
+};
+
+struct OutputTable {
+    std::vector<std::string> particle_arrays = {"velocity", "angular_velocity", "material"};
+    std::vector<std::string> contact_arrays = {"force", "normal_force", "gap", "id_a", "id_b", "wall"};
+    double contact_interval = infinity;
+    double contact_threshold = 0.0;
+    PartTable region;
+
+    static void describe(auto& self, auto&& key)
+    {
+        key("particle_arrays", self.particle_arrays,
+            one_of({"velocity", "angular_velocity", "material", "force", "coordination"}), "",
+            "what particle frames hold besides id and radius; force: sum of the contact forces; coordination: contacts "
+            "with an impulse");
+        key("contact_arrays", self.contact_arrays, one_of({"force", "normal_force", "gap", "id_a", "id_b", "wall"}), "",
+            "what contact frames hold");
         key("contact_interval", self.contact_interval, or_infinite(above(0.0)), "s",
             "time between contact frames; inf: first and last only");
         key("contact_threshold", self.contact_threshold, at_least(0.0), "mean force",
             "contacts with less force are left out of the frames");
+        key("region", self.region, any(), "",
+            "frames hold the spheres with their centres and the contacts with their points in it");
     }
 };
 

@@ -8,6 +8,7 @@
 #include "core/sensor.hpp"
 #include "core/state.hpp"
 #include "core/time_step.hpp"
+#include "scenarios/output_choice.hpp"
 
 #include <memory>
 #include <string>
@@ -24,6 +25,7 @@ struct Simulation {
     std::vector<Pour> pours;
     Outflow outflow;
     std::vector<std::unique_ptr<Sensor>> sensors;
+    OutputChoice output;
     double duration = 0.0;         ///< [s]
     std::string step_explanation;  ///< one line: where the time step comes from
     std::string model_explanation; ///< one line: what the run models and what it leaves out

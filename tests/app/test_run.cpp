@@ -134,6 +134,37 @@ TEST_CASE("metrics.csv names each column with its unit, sensors included", "[app
     for (const std::string& row : rows) CHECK(std::count(row.begin(), row.end(), ',') == columns);
 }
 
+TEST_CASE("a run writes the results of its sensors, and profiles as tables", "[app][run]")
+{
+    const Workplace place;
+    const Outcome outcome = place.run(beads_in_a_box + R"([[sensor]]
+name = "bed"
+kind = "region"
+region = { max = [0.05, 0.05, 0.05] }
+[[sensor]]
+name = "load"
+kind = "wall_force"
+wall = "tray"
+[[sensor]]
+name = "rise"
+kind = "profile"
+direction = "z"
+bins = 5
+region = { max = [0.05, 0.05, 0.05] }
+)");
+    REQUIRE(outcome.exit_code == 0);
+    const json sensors = json::parse(place.read("out/summary.json"))["sensors"];
+    // Eight beads of 10 mm in 125 cm³.
+    CHECK(sensors["bed"]["packing_fraction"]["value"] == Approx(8 * 0.5236 / 125.0).epsilon(1e-3));
+    CHECK(sensors["load"]["force_z"]["value"] < 0.0);
+    CHECK(sensors["rise"]["packing_fraction"]["value"] == Approx(8 * 0.5236 / 125.0).epsilon(1e-3));
+    CHECK_THAT(place.read("out/metrics.csv"), Contains(",bed_stress_zz_Pa,") && Contains(",load_torque_x_N_m,"));
+    const auto table = lines(place.read("out/profile_rise.csv"));
+    REQUIRE(table.size() == 1 + 5);
+    CHECK_THAT(table[0], StartsWith("position_m,packing_fraction,packing_fraction_error,velocity_x_m_per_s,"));
+    CHECK_THAT(table[1], StartsWith("0.005,"));
+}
+
 TEST_CASE("a wall that is taken away gives a new wall frame", "[app][run]")
 {
     const Workplace place;

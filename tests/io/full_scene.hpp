@@ -16,6 +16,10 @@ frame_interval = inf
 max = [1, 1, inf]
 [solver]
 tolerance = "fine"
+[output]
+particle_arrays = ["force"]
+contact_arrays = []
+region = { shape = "box", max = [1, 1, 1] }
 [materials.glass]
 density = 2500.0
 ["materials"."dark wood"]
@@ -50,6 +54,21 @@ region = { max = [1, 1, 1] }
 [[sensor]]
 name = "flow"
 kind = "mass_flow"
+[[sensor]]
+name = "bed"
+kind = "region"
+region = { max = [1, 1, 1] }
+[[sensor]]
+name = "rings"
+kind = "profile"
+direction = "radial"
+region = { shape = "cylinder", radius = 0.3, height = 1 }
+bins = 7
+[[sensor]]
+name = "load"
+kind = "wall_force"
+wall = "box"
+point = [0, 0, 1]
 )";
 
 /// An ASCII STL file.

@@ -11,11 +11,11 @@ using namespace talus::test;
 TEST_CASE("the .pvd lists every frame with its time and relative file", "[frames]")
 {
     const SceneFolder folder;
-    State state;
+    Simulation simulation;
     FrameWriter frames(folder.path());
-    frames.write_particles(state);
-    state.time = 0.1;
-    frames.write_particles(state);
+    frames.write_particles(simulation);
+    simulation.state.time = 0.1;
+    frames.write_particles(simulation);
     CHECK(read_file(folder.path() / "particles.pvd") ==
           "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n"
           "    <DataSet timestep=\"0\" part=\"0\" file=\"frames/particles_000000.vtp\"/>\n"
@@ -28,7 +28,7 @@ TEST_CASE("a frame that the disk does not take is an output error and leaves no 
     const SceneFolder folder;
     FrameWriter frames(folder.path());
     std::filesystem::create_symlink("/dev/full", folder.path() / "frames/particles_000000.vtp.tmp");
-    CHECK(folder.without_folder(error_of<OutputError>([&] { frames.write_particles(State()); })) ==
+    CHECK(folder.without_folder(error_of<OutputError>([&] { frames.write_particles(Simulation()); })) ==
           "frames/particles_000000.vtp: cannot be written: No space left on device");
     CHECK_FALSE(std::filesystem::exists(folder.path() / "frames/particles_000000.vtp"));
     CHECK_FALSE(std::filesystem::exists(folder.path() / "particles.pvd"));

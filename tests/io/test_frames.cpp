@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/frames.hpp"
 #include "tests/io/scene_folder.hpp"
+#include "tests/support/regions.hpp"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -74,7 +75,7 @@ Simulation stack_of_two()
 TEST_CASE("a particle frame has the spheres in the order of their ids, in one cell", "[frames]")
 {
     const SceneFolder folder;
-    FrameWriter(folder.path()).write_particles(stack_of_two().state);
+    FrameWriter(folder.path()).write_particles(stack_of_two());
     const auto frame = read_frame(folder.path() / "frames/particles_000000.vtp");
     REQUIRE(frame->GetNumberOfPoints() == 2);
     CHECK(frame->GetNumberOfCells() == 1);
@@ -94,7 +95,7 @@ TEST_CASE("a particle frame has the spheres in the order of their ids, in one ce
 TEST_CASE("a contact frame has a line with force and ids for each loaded contact", "[frames]")
 {
     const SceneFolder folder;
-    FrameWriter(folder.path()).write_contacts(stack_of_two(), 0.0);
+    FrameWriter(folder.path()).write_contacts(stack_of_two());
     const auto frame = read_frame(folder.path() / "frames/contacts_000000.vtp");
     REQUIRE(frame->GetNumberOfCells() == 2);
     vtkCellData* data = frame->GetCellData();
@@ -120,10 +121,52 @@ TEST_CASE("a contact frame has a line with force and ids for each loaded contact
 TEST_CASE("contacts with less than the threshold of mean forces are left out", "[frames]")
 {
     const SceneFolder folder;
-    FrameWriter(folder.path()).write_contacts(stack_of_two(), 1.0); // forces 3.2 N and 12 N
+    Simulation simulation = stack_of_two();
+    simulation.output.contact_threshold = 1.0; // forces 3.2 N and 12 N
+    FrameWriter(folder.path()).write_contacts(simulation);
     const auto frame = read_frame(folder.path() / "frames/contacts_000000.vtp");
     REQUIRE(frame->GetNumberOfCells() == 1);
     CHECK(value(frame->GetCellData(), "wall", 0) == 1);
+}
+
+TEST_CASE("frames hold the arrays that are asked for, and no others", "[frames]")
+{
+    const SceneFolder folder;
+    Simulation simulation = stack_of_two();
+    simulation.output.particle_arrays = {"force", "coordination"};
+    simulation.output.contact_arrays = {"gap"};
+    FrameWriter frames(folder.path());
+    frames.write_particles(simulation);
+    frames.write_contacts(simulation);
+
+    // Sphere 0 is borne by sphere 1, which is borne by the floor: the forces on each add up.
+    const auto spheres = read_frame(folder.path() / "frames/particles_000000.vtp");
+    vtkPointData* of_spheres = spheres->GetPointData();
+    REQUIRE(of_spheres->GetNumberOfArrays() == 4); // with id and radius
+    CHECK(tuple(of_spheres, "force", 0).isApprox(Vec3(1, 0, 3), 1e-6));
+    CHECK(tuple(of_spheres, "force", 1).isApprox(Vec3(-1, 0, 9), 1e-6));
+    CHECK(value(of_spheres, "coordination", 0) == 1);
+    CHECK(value(of_spheres, "coordination", 1) == 2);
+
+    const auto contacts = read_frame(folder.path() / "frames/contacts_000000.vtp");
+    REQUIRE(contacts->GetCellData()->GetNumberOfArrays() == 1);
+    CHECK(value(contacts->GetCellData(), "gap", 1) == -0.125);
+}
+
+TEST_CASE("a region leaves out the spheres and contacts beside it", "[frames]")
+{
+    const SceneFolder folder;
+    Simulation simulation = stack_of_two();
+    simulation.output.region = box(Vec3(-1, -1, 0.9), Vec3(1, 1, 2));
+    FrameWriter frames(folder.path());
+    frames.write_particles(simulation);
+    frames.write_contacts(simulation);
+    const auto spheres = read_frame(folder.path() / "frames/particles_000000.vtp");
+    REQUIRE(spheres->GetNumberOfPoints() == 1);
+    CHECK(value(spheres->GetPointData(), "id", 0) == 0);
+    const auto contacts = read_frame(folder.path() / "frames/contacts_000000.vtp");
+    REQUIRE(contacts->GetNumberOfCells() == 1);
+    CHECK(value(contacts->GetCellData(), "id_b", 0) == 1);
 }
 
 TEST_CASE("a wall frame has the walls that stand at its time", "[frames]")
@@ -143,8 +186,8 @@ TEST_CASE("a frame without spheres or contacts opens too", "[frames]")
 {
     const SceneFolder folder;
     FrameWriter frames(folder.path());
-    frames.write_particles(State());
-    frames.write_contacts(Simulation(), 0.0);
+    frames.write_particles(Simulation());
+    frames.write_contacts(Simulation());
     CHECK(read_frame(folder.path() / "frames/particles_000000.vtp")->GetNumberOfPoints() == 0);
     CHECK(read_frame(folder.path() / "frames/contacts_000000.vtp")->GetPointData());
 }

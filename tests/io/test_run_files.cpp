@@ -34,7 +34,8 @@ TEST_CASE("a run is replaced only when forced, and the user's own files in it st
     const SceneFolder folder;
     make_run_folder(folder.path(), "old", false);
     fs::create_directory(folder.path() / "frames");
-    for (const char* name : {"metrics.csv", "summary.json", "particles.pvd", "frames/walls_000003.vtp", "notes.txt"})
+    for (const char* name : {"metrics.csv", "summary.json", "particles.pvd", "frames/walls_000003.vtp",
+             "profile_bed.csv", "profile_bed.png", "notes.txt"})
         folder.write(name, "old");
 
     CHECK(error_of<InputError>([&] { make_run_folder(folder.path(), "new", false); }) ==
@@ -43,9 +44,10 @@ TEST_CASE("a run is replaced only when forced, and the user's own files in it st
 
     make_run_folder(folder.path(), "new", true);
     CHECK(read_file(folder.path() / "scene.resolved.toml") == "new");
-    for (const char* name : {"metrics.csv", "summary.json", "particles.pvd", "frames/walls_000003.vtp"})
+    for (const char* name :
+        {"metrics.csv", "summary.json", "particles.pvd", "frames/walls_000003.vtp", "profile_bed.csv"})
         CHECK_FALSE(fs::exists(folder.path() / name));
-    CHECK(read_file(folder.path() / "notes.txt") == "old");
+    for (const char* name : {"profile_bed.png", "notes.txt"}) CHECK(read_file(folder.path() / name) == "old");
 }
 
 TEST_CASE("a run folder that cannot be is refused", "[run_files]")
@@ -85,6 +87,14 @@ TEST_CASE("metrics are a header and a row a sample, there at once", "[run_files]
     MetricsFile metrics(path, {"time_s", "flow, of all_kg_per_s"});
     metrics.add_row({0.1, 1.0 / 3.0});
     CHECK(read_file(path) == "time_s,\"flow, of all_kg_per_s\"\n0.1,0.3333333333333333\n");
+}
+
+TEST_CASE("a table is a file of its own, with units in its header", "[run_files]")
+{
+    const SceneFolder folder;
+    write_table(folder.path(), "bed",
+        {{{"position", "m"}, {"torque", "N m"}, {"samples", "1"}}, {{0.5, 1e-3, 7}, {1.5, 2, 8}}});
+    CHECK(read_file(folder.path() / "profile_bed.csv") == "position_m,torque_N_m,samples\n0.5,0.001,7\n1.5,2,8\n");
 }
 
 TEST_CASE("metrics on a full disk or in no folder are an output error", "[run_files]")

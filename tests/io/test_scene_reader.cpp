@@ -33,7 +33,8 @@ TEST_CASE("an unknown key is refused with the nearest known one", "[scene_reader
 TEST_CASE("an unknown key that is like none is refused with all keys of its table", "[scene_reader]")
 {
     CHECK(refusal_of("[output]\ncolour = 1\n") ==
-          "scene.toml:2:1: unknown key 'colour' in [output]; its keys are 'contact_interval' and 'contact_threshold'");
+          "scene.toml:2:1: unknown key 'colour' in [output]; its keys are 'particle_arrays', 'contact_arrays', "
+          "'contact_interval', 'contact_threshold' and 'region'");
 }
 
 TEST_CASE("a value of the wrong type is refused with what is wanted", "[scene_reader]")
@@ -125,8 +126,8 @@ TEST_CASE("a key of another shape is refused with the shapes that have it and th
     CHECK(refusal_of("[[fill]]\nspacing = 1.2\narrangement = 'random'\n")
               .starts_with("scene.toml:2:1: key 'spacing' in [[fill]] goes with arrangement 'lattice', not 'random'"));
     CHECK(refusal_of("[[sensor]]\nname = 's'\nkind = 'repose'\nfrom = 1.0\n") ==
-          "scene.toml:4:1: key 'from' in [[sensor]] goes with kind 'mass_flow', not 'repose', whose keys are 'name', "
-          "'kind', 'base', 'inner_radius' and 'outer_radius'");
+          "scene.toml:4:1: key 'from' in [[sensor]] goes with kind 'mass_flow', 'region', 'profile' or "
+          "'wall_force', not 'repose', whose keys are 'name', 'kind', 'base', 'inner_radius' and 'outer_radius'");
 }
 
 TEST_CASE("a key that a shape must have is asked for where the table stands", "[scene_reader]")

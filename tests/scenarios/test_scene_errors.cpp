@@ -150,6 +150,49 @@ const std::vector<Mistake> of_spheres = {
         "pour[1].name", "two pours are called 'rain'"},
 };
 
+/// Adds sensor[0] of a kind with the fill's region, with what `set` sets.
+std::function<void(S&)> add_sensor(const std::string& kind, std::function<void(scene::SensorTable&)> set)
+{
+    return [=](S& s) {
+        auto& table = s.sensor.emplace_back(sensor("a", kind));
+        table.region = s.fill[0].region;
+        table.direction = "z";
+        set(table);
+    };
+}
+
+const std::vector<Mistake> of_sensors = {
+    {add_sensor("region", [](auto& t) { t.region = {}; }), "sensor[0].region.max",
+        "the box is empty: every coordinate of 'min' must be below that of 'max'"},
+    {add_sensor("region", [](auto& t) { t.from = t.to = 1.0; }), "sensor[0].to", "'to' must be later than 'from'"},
+    {add_sensor("profile", [](auto& t) { t.from = t.to = 1.0; }), "sensor[0].to", "'to' must be later than 'from'"},
+    {add_sensor("profile", [](auto& t) { t.direction = "radial"; }), "sensor[0].direction",
+        "a box is cut along 'x', 'y' or 'z', a cylinder 'axial' or 'radial'"},
+    {add_sensor("profile",
+         [](auto& t) {
+             t.region.shape = "cylinder";
+             t.region.radius = t.region.height = 0.1;
+         }),
+        "sensor[0].direction", "a box is cut along 'x', 'y' or 'z', a cylinder 'axial' or 'radial'"},
+    {add_sensor("profile", [](auto& t) { t.name = "../a"; }), "sensor[0].name",
+        "the name of a profile is part of a file's name: use letters, digits, '.', '_' and '-' only"},
+    {add_sensor("wall_force", [](auto& t) { t.wall = "flor"; }), "sensor[0].wall",
+        "unknown wall 'flor'; the scene has box"},
+    {[](S& s) {
+         add_sensor("wall_force", [](auto&) {})(s);
+         s.wall.clear();
+     },
+        "sensor[0].wall", "unknown wall ''; the scene has none"},
+    {add_sensor("wall_force",
+         [](auto& t) {
+             t.wall = "box";
+             t.from = t.to = 1.0;
+         }),
+        "sensor[0].to", "'to' must be later than 'from'"},
+    {[](S& s) { s.output.region.shape = "box"; }, "output.region.max",
+        "the box is empty: every coordinate of 'min' must be below that of 'max'"},
+};
+
 const std::vector<Mistake> of_the_rest = {
     {[](S& s) { s.world.max = s.world.min = Vec3::Zero(); }, "world.max",
         "the world is empty: every coordinate of 'min' must be below that of 'max'"},
@@ -224,6 +267,10 @@ TEST_CASE("a scene with a mistake is not built, and the key and the reason are t
     SECTION("spheres")
     {
         check_all(of_spheres);
+    }
+    SECTION("sensors and output")
+    {
+        check_all(of_sensors);
     }
     SECTION("world, solver, outlets and sensors")
     {
