@@ -66,6 +66,13 @@ template <Table Described> std::string toml_text(const Described& table)
     return "{" + text + " }";
 }
 
+template <Table Described> std::string toml_text(const std::vector<Described>& list)
+{
+    std::string text;
+    for (const Described& element : list) text += (text.empty() ? "" : ", ") + toml_text(element);
+    return "[" + text + "]";
+}
+
 /// A key with its value on a line of its own, and its unit where it has one.
 void write_line(std::string& text, std::string_view name, const auto& field, std::string_view unit)
 {

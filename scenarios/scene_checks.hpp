@@ -7,6 +7,9 @@
 namespace talus
 {
 
+/// The path of a table in a list: "wall[2]".
+std::string table_path(const std::string& list, std::size_t index);
+
 /// The path of a key in a list of tables: "wall[2].material".
 std::string key_path(const std::string& list, std::size_t index, const std::string& key);
 
