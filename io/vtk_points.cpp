@@ -17,7 +17,7 @@
 
 #include <fmt/format.h>
 
-#include <new>
+#include <exception>
 #include <string>
 
 namespace talus
@@ -87,8 +87,8 @@ template <class Reader> vtkSmartPointer<vtkPointSet> read_with(const std::filesy
     reader->SetFileName(path.c_str());
     try {
         reader->Update();
-    } catch (const std::bad_alloc&) {
-        throw InputError(fmt::format("{}: VTK cannot read it: it asks for more memory than there is", path.string()));
+    } catch (const std::exception&) { // lists longer than there can be, or than there is memory for
+        throw InputError(fmt::format("{}: VTK cannot read it: its sizes are too large to be true", path.string()));
     }
     const std::string error = quiet.errors->sentence();
     if (!error.empty()) throw InputError(fmt::format("{}: VTK cannot read it: {}", path.string(), error));

@@ -195,6 +195,24 @@ TEST_CASE("a file that VTK cannot read is refused with its reason on one line, a
     CHECK(errors.printed() == "heard");
 }
 
+TEST_CASE("sizes that no file can have are refused", "[sphere_file]")
+{
+    // A compressed array whose header says that it has more blocks than there can be.
+    State state;
+    add_sphere(state, Vec3::Zero(), 0.01, 2500.0, 0);
+    const SceneFolder folder;
+    FrameWriter(folder.path()).write_particles(state);
+    const auto frame = folder.path() / "frames/particles_000000.vtp";
+    std::string bytes = read_file(frame);
+    const std::size_t data = bytes.find("<AppendedData");
+    REQUIRE(data != std::string::npos);
+    const std::size_t blocks = bytes.find('_', data) + 1;
+    bytes.replace(blocks, 8, std::string("\xff\xff\xff\xff\xff\xff\xff\x0f", 8));
+    const std::string refusal = refusal_of("s.vtp", bytes);
+    CHECK(refusal.starts_with("s.vtp: VTK cannot read it: "));
+    CHECK(refusal.find('\n') == std::string::npos);
+}
+
 TEST_CASE("a file of spheres that is missing, empty, or of another kind is refused", "[sphere_file]")
 {
     CHECK(refusal_of("s.vtp", "") == "s.vtp: the file is empty");
