@@ -33,7 +33,7 @@ std::size_t triangle_count(const Model& model)
 double poured_count(const Simulation& simulation)
 {
     double count = 0.0;
-    for (const Pour& pour : simulation.pours) count += static_cast<double>(pour.count);
+    for (const Pour& pour : simulation.pours) count += expected_count(pour, simulation.model.materials);
     return count;
 }
 

@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace talus
 {
@@ -22,18 +23,28 @@ ParticleLedger particle_ledger(const Simulation& simulation, const std::vector<I
     return ledger;
 }
 
-std::string shortfall_of(const Pour& pour, double time)
+std::string shortfall_of(const Pour& pour, double time, const Materials& materials)
 {
-    if (pour.poured == pour.count) return "";
-    if (pour.poured >= due_count(pour, time) - 1) return "the run ended before the rest was due";
+    if (is_over(pour)) return "";
+    if (!is_behind(pour, time, materials)) return "the run ended before the rest was due";
     return fmt::format("its region was full: {} times there was no free place", pour.refused);
 }
 
 std::vector<PourSummary> summarise_pours(const Simulation& simulation)
 {
     std::vector<PourSummary> pours;
-    for (const Pour& pour : simulation.pours)
-        pours.push_back({pour.name, pour.count, pour.poured, shortfall_of(pour, simulation.state.time)});
+    for (const Pour& pour : simulation.pours) {
+        PourSummary summary;
+        summary.name = pour.name;
+        summary.poured = pour.poured;
+        summary.poured_mass = pour.poured_mass;
+        if (std::isfinite(pour.mass))
+            summary.asked_mass = pour.mass;
+        else
+            summary.asked = pour.count;
+        summary.shortfall = shortfall_of(pour, simulation.state.time, simulation.model.materials);
+        pours.push_back(summary);
+    }
     return pours;
 }
 
@@ -58,6 +69,13 @@ void print_sensors(const RunSummary& summary)
                 "  {:<28} {:.5g} ± {:.2g} {}\n", fmt::format("{} {}", sensor.name, m.name), m.value, m.spread, m.unit);
 }
 
+/// "20 of 30 spheres", "0.2 of 0.3 kg".
+std::string poured_of_asked(const PourSummary& pour)
+{
+    if (pour.asked_mass) return fmt::format("{:.4g} of {:.4g} kg", pour.poured_mass, *pour.asked_mass);
+    return fmt::format("{} of {} spheres", pour.poured, pour.asked.value_or(0));
+}
+
 void print_ledger(const RunSummary& summary)
 {
     const ParticleLedger& ledger = summary.ledger;
@@ -66,8 +84,8 @@ void print_ledger(const RunSummary& summary)
         ledger.closes() ? "closes" : "DOES NOT CLOSE: spheres were lost");
     for (const PourSummary& pour : summary.pours)
         if (!pour.shortfall.empty())
-            fmt::print("  {:<28} {} of {} spheres came in: {}\n", fmt::format("pour {}", pour.name), pour.poured,
-                pour.asked, pour.shortfall);
+            fmt::print(
+                "  {:<28} {} came in: {}\n", fmt::format("pour {}", pour.name), poured_of_asked(pour), pour.shortfall);
 }
 
 void print_error(const RunSummary& summary)

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 namespace talus
 {
@@ -36,48 +38,70 @@ bool overlaps_sphere(const State& state, const std::vector<std::size_t>& near, c
     });
 }
 
-} // namespace
-
-double SizeDistribution::mean_volume() const
+/// Whether the next sphere is due when so much has come in.
+bool is_due_after(const Pour& source, double time, double count, double mass)
 {
-    // The mean of d³ over a uniform distribution: (max⁴ − min⁴) / (4 (max − min)), written without the difference.
-    return std::numbers::pi / 24.0 * (max + min) * (max * max + min * min);
+    const double elapsed = time - source.start;
+    // Not "at most": at the start a rate that is infinite, because the other rules, gives not-a-number.
+    return elapsed >= 0.0 && !(count > elapsed * source.rate) && !(mass > elapsed * source.mass_rate);
 }
 
-std::int64_t due_count(const Pour& source, double time)
+/// A free place for the sphere that waits, if one is found.
+std::optional<Vec3> find_place(
+    Pour& source, const State& state, const std::vector<std::size_t>& near, const std::vector<PlacedWall>& walls,
+    const Periodicity& periodicity)
 {
-    if (time < source.start) return 0;
-    // In floating point until it is known to be small: a rate of 1e99 means "at once".
-    return static_cast<std::int64_t>(
-        std::min(static_cast<double>(source.count), 1.0 + std::floor((time - source.start) * source.rate)));
+    const double radius = 0.5 * source.pending.diameter;
+    for (int k = 0; k < tries; ++k) {
+        const Vec3 x = source.region.random_point(source.random, radius);
+        if (!overlaps_sphere(state, near, x, radius, periodicity) && !touches_wall(walls, x, radius)) return x;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+bool is_over(const Pour& source)
+{
+    return source.poured >= source.count || source.poured_mass >= source.mass;
+}
+
+bool is_due(const Pour& source, double time)
+{
+    return !is_over(source) && is_due_after(source, time, static_cast<double>(source.poured), source.poured_mass);
+}
+
+bool is_behind(const Pour& source, double time, const Materials& materials)
+{
+    return !is_over(source) && is_due_after(source, time, static_cast<double>(source.poured) + 1.0,
+                                   source.poured_mass + source.mixture.mean_mass(materials));
+}
+
+double expected_count(const Pour& source, const Materials& materials)
+{
+    return std::isfinite(source.mass) ? source.mass / source.mixture.mean_mass(materials)
+                                      : static_cast<double>(source.count);
 }
 
 std::size_t pour(Pour& source, State& state, const Model& model)
 {
-    const auto due = due_count(source, state.time);
-    if (source.poured >= due) return 0;
+    if (!is_due(source, state.time)) return 0;
 
-    auto near = spheres_near(state, source.region, 0.5 * source.diameter.max, model.periodicity);
+    auto near = spheres_near(state, source.region, 0.5 * source.mixture.max_diameter(), model.periodicity);
     const auto walls = place_walls(model.walls, model.periodicity, state.time);
     std::size_t entered = 0;
-    while (source.poured < due) {
-        if (source.pending_diameter == 0.0) source.pending_diameter = source.diameter.draw(source.random);
-        const double radius = 0.5 * source.pending_diameter;
-        bool placed = false;
-        for (int k = 0; k < tries && !placed; ++k) {
-            const Vec3 x = source.region.random_point(source.random, radius);
-            if (overlaps_sphere(state, near, x, radius, model.periodicity) || touches_wall(walls, x, radius)) continue;
-            const double density = model.materials.list[static_cast<std::size_t>(source.material)].density;
-            near.push_back(add_sphere(state, x, radius, density, source.material, source.velocity));
-            placed = true;
-        }
-        if (!placed) {
+    for (; is_due(source, state.time); ++entered) {
+        if (source.pending.diameter == 0.0) source.pending = source.mixture.draw(source.random);
+        const auto place = find_place(source, state, near, walls, model.periodicity);
+        if (!place) {
             ++source.refused;
             break;
         }
-        source.pending_diameter = 0.0;
+        const auto [diameter, material] = std::exchange(source.pending, Grain{});
+        const double density = model.materials.list[static_cast<std::size_t>(material)].density;
+        near.push_back(add_sphere(state, *place, 0.5 * diameter, density, material, source.velocity));
         ++source.poured;
-        ++entered;
+        source.poured_mass += density * std::numbers::pi / 6.0 * diameter * diameter * diameter;
     }
     return entered;
 }

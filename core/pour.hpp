@@ -1,47 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/mixture.hpp"
 #include "core/model.hpp"
 #include "core/region.hpp"
 #include "core/state.hpp"
 
+#include <limits>
+
 namespace talus
 {
 
-/// The diameters of a kind of sphere.
-struct SizeDistribution {
-    double min = 0.0; ///< [m]
-    double max = 0.0; ///< [m]; uniform between the two, one size where they are equal
-
-    double draw(Random& random) const { return min + (max - min) * uniform(random); }
-    double mean() const { return 0.5 * (min + max); }
-
-    /// Mean of d³ π/6 [m³].
-    double mean_volume() const;
-};
-
-/// Spheres that enter during the run, at random places of a region, never overlapping anything.
+/// Spheres that enter during the run, at random places of a region, never overlapping anything. How many and how fast
+/// is a matter of number or of mass, whichever is finite.
 struct Pour {
     std::string name;
     Region region;
-    SizeDistribution diameter;
-    int material = 0;
-    double rate = 0.0;            ///< spheres per second
-    std::int64_t count = 0;       ///< in all
-    Vec3 velocity = Vec3::Zero(); ///< of the entering spheres
-    double start = 0.0;           ///< [s]
+    Mixture mixture;
+    std::int64_t count = std::numeric_limits<std::int64_t>::max(); ///< in all
+    double mass = infinity;                                        ///< in all [kg]
+    double rate = infinity;                                        ///< spheres per second
+    double mass_rate = infinity;                                   ///< [kg/s]
+    Vec3 velocity = Vec3::Zero();                                  ///< of the entering spheres
+    double start = 0.0;                                            ///< [s]
 
     // What changes:
-    std::int64_t poured = 0;       ///< so far
-    std::int64_t refused = 0;      ///< times that no free place was found and the sphere had to wait
-    double pending_diameter = 0.0; ///< of the sphere that waits; 0: none drawn
+    std::int64_t poured = 0;  ///< so far
+    double poured_mass = 0.0; ///< so far [kg]
+    std::int64_t refused = 0; ///< times that no free place was found and the sphere had to wait
+    Grain pending;            ///< the sphere that waits; diameter 0: none drawn
     Random random;
 
-    void persist(Archive& archive) { archive(poured, refused, pending_diameter, random); }
+    void persist(Archive& archive)
+    {
+        archive(poured, poured_mass, refused, pending.diameter, pending.material, random);
+    }
 };
 
-/// How many spheres should have entered by this time: the first at the start, then `rate` a second, at most `count`.
-std::int64_t due_count(const Pour& source, double time);
+/// Whether all has come in. A pour by mass ends with the sphere that reaches it.
+bool is_over(const Pour& source);
+
+/// Whether the next sphere should have entered by this time: the first at the start, the others as the rate asks.
+bool is_due(const Pour& source, double time);
+
+/// Whether more than one sphere (of the mean mass) should have entered by this time and has not.
+bool is_behind(const Pour& source, double time, const Materials& materials);
+
+/// How many spheres will come in, by a pour by mass on average.
+double expected_count(const Pour& source, const Materials& materials);
 
 /// Lets in what is due at the state's time. A sphere that finds no free place in 50 tries waits for the next step.
 /// Returns how many came in.

@@ -3,6 +3,8 @@
 
 #include "io/input_error.hpp"
 #include "io/scene_reader.hpp"
+#include "io/sieve_file.hpp"
+#include "io/sphere_file.hpp"
 #include "io/stl.hpp"
 #include "io/toml_overrides.hpp"
 #include "io/toml_value.hpp"
@@ -46,12 +48,17 @@ toml::table parse_file(const std::filesystem::path& path)
     }
 }
 
-/// Reads the mesh of a wall, named in relation to the scene's folder, and brings it to metres and into place.
-/// From then on the wall names it by its absolute path, so that the resolved scene can be read from any folder.
+/// Makes the path of a file, named in relation to the scene's folder, absolute, so that the resolved scene can be read
+/// from any folder.
+void make_absolute(const SceneFile& file, std::string& name)
+{
+    name = (std::filesystem::absolute(file.path).parent_path() / name).lexically_normal().string();
+}
+
+/// Reads the mesh of a wall, and brings it to metres and into place.
 void read_mesh(const SceneFile& file, const std::string& key, scene::WallTable& wall)
 {
-    const auto path = std::filesystem::absolute(file.path).parent_path() / wall.mesh;
-    wall.mesh = path.lexically_normal().string();
+    make_absolute(file, wall.mesh);
     try {
         TriangleSoup soup = read_stl(wall.mesh);
         for (Vec3& vertex : soup.vertices) vertex = wall.scale * vertex + wall.translate;
@@ -60,6 +67,57 @@ void read_mesh(const SceneFile& file, const std::string& key, scene::WallTable& 
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: wall '{}': {}", file.place_of(key + ".mesh"), wall.name, error.what()));
     }
+}
+
+/// Reads the spheres of a fill, and brings them to metres and into place.
+void read_fill(const SceneFile& file, const std::string& key, scene::FillTable& fill)
+{
+    make_absolute(file, fill.file);
+    try {
+        fill.spheres = read_spheres(fill.file);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", file.place_of(key + ".file"), error.what()));
+    }
+    for (Vec3& position : fill.spheres.positions) position = fill.scale * position + fill.translate;
+    for (double& radius : fill.spheres.radii) radius *= fill.scale;
+    for (Vec3& velocity : fill.spheres.velocities) velocity *= fill.scale;
+}
+
+/// Reads the sieve analysis of diameters that have one.
+void read_analysis(const SceneFile& file, const std::string& key, scene::DiameterTable& diameter)
+{
+    if (diameter.distribution != "sieve") return;
+    make_absolute(file, diameter.file);
+    try {
+        const SieveAnalysis analysis = read_sieves(diameter.file);
+        diameter.sieve_sizes = analysis.sizes;
+        diameter.sieve_passing = analysis.passing;
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", file.place_of(key + ".file"), error.what()));
+    }
+}
+
+/// The sieve analyses of a fill or a pour.
+void read_analyses(const SceneFile& file, const std::string& key, auto& table)
+{
+    read_analysis(file, key + ".diameter", table.diameter);
+    for (std::size_t k = 0; k < table.species.size(); ++k)
+        read_analysis(file, fmt::format("{}.species[{}].diameter", key, k), table.species[k].diameter);
+}
+
+/// Reads every file that the scene names into it.
+void read_named_files(SceneFile& file)
+{
+    scene::Scene& scene = file.scene;
+    for (std::size_t i = 0; i < scene.wall.size(); ++i)
+        if (scene.wall[i].shape == "mesh" && !scene.wall[i].mesh.empty())
+            read_mesh(file, fmt::format("wall[{}]", i), scene.wall[i]);
+    for (std::size_t i = 0; i < scene.fill.size(); ++i) {
+        const std::string key = fmt::format("fill[{}]", i);
+        read_analyses(file, key, scene.fill[i]);
+        if (scene.fill[i].arrangement == "file") read_fill(file, key, scene.fill[i]);
+    }
+    for (std::size_t i = 0; i < scene.pour.size(); ++i) read_analyses(file, fmt::format("pour[{}]", i), scene.pour[i]);
 }
 
 } // namespace
@@ -80,9 +138,7 @@ SceneFile read_scene(const std::filesystem::path& path, const std::vector<std::s
     for (const std::string& key_and_value : overrides) apply_override(root, key_and_value);
     SceneFile file{{}, path, {}};
     file.scene = read_tables(root, file.places);
-    for (std::size_t i = 0; i < file.scene.wall.size(); ++i)
-        if (file.scene.wall[i].shape == "mesh" && !file.scene.wall[i].mesh.empty())
-            read_mesh(file, fmt::format("wall[{}]", i), file.scene.wall[i]);
+    read_named_files(file);
     return file;
 }
 

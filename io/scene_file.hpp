@@ -23,7 +23,8 @@ struct SceneFile {
 };
 
 /// Reads a scene file strictly: an unknown key, a wrong type or a value out of range is refused with file, line,
-/// column, the key, what is allowed and the nearest known key. Reads the STL files that it names.
+/// column, the key, what is allowed and the nearest known key. Reads the files that it names: meshes, spheres, sieve
+/// analyses.
 /// @param overrides "key=value", the value in TOML; a key reaches tables by name ("wall.gate.remove_at",
 ///   "contact.glass-glass.friction") or by index ("fill.0.count").
 /// @throws InputError

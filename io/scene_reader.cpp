@@ -27,6 +27,19 @@ struct Location {
     }
 };
 
+/// The path of a list without the indices in it: "fill.species" for "fill[0].species".
+std::string without_indices(const std::string& path)
+{
+    std::string text;
+    bool inside = false;
+    for (const char c : path) {
+        inside = inside || c == '[';
+        if (!inside) text += c;
+        inside = inside && c != ']';
+    }
+    return text;
+}
+
 /// Walks the tables of a scene file along the `describe` functions of the scene's.
 class SceneReader
 {
@@ -53,7 +66,8 @@ private:
                                            std::string_view unit, std::string_view meaning) {
             if (!wanted(allowed)) return;
             const toml::node* node = table.get(name);
-            if (!node && allowed.required) refuse_missing_key(table, at, name, meaning);
+            if (!node && allowed.required_by(decision_of(described).value))
+                refuse_missing_key(table, at, name, meaning);
             if (!node) return;
             places_[at.key(name)] = place_in(node->source());
             read_field(*node, at.key(name), Key{name, allowed, unit}, field);
@@ -86,7 +100,7 @@ private:
     void read_field(const toml::node& node, const std::string& path, const Key& key, std::vector<Described>& field)
     {
         const toml::array* elements = node.as_array();
-        const std::string title = fmt::format("[[{}]]", key.name);
+        const std::string title = fmt::format("[[{}]]", without_indices(path));
         if (!elements) refuse_value(node, key.name, fmt::format("a list of tables {}", title));
         for (std::size_t i = 0; i < elements->size(); ++i) {
             const toml::node& element = (*elements)[i];

@@ -83,7 +83,7 @@ template <Table Described> std::string toml_text(const Described& table)
 template <Table Described> std::string toml_text(const std::vector<Described>& list)
 {
     std::string text;
-    for (const Described& table : list) text += (text.empty() ? "" : ", ") + toml_text(table);
+    for (const Described& element : list) text += (text.empty() ? "" : ", ") + toml_text(element);
     return "[" + text + "]";
 }
 

@@ -2,6 +2,7 @@
 #include "io/stl.hpp"
 
 #include "io/input_error.hpp"
+#include "io/input_file.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +11,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -23,24 +22,6 @@ namespace
 
 /// The corners of all triangles, three for each.
 using Corners = std::vector<Vec3>;
-
-constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
-
-std::string read_bytes(const std::filesystem::path& path)
-{
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) throw InputError(fmt::format("{}: no such file", path.string()));
-    if (!std::filesystem::is_regular_file(path, error))
-        throw InputError(fmt::format("{}: not an STL file", path.string()));
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error || size > largest_file)
-        throw InputError(fmt::format("{}: larger than the {} bytes that are read", path.string(), largest_file));
-    if (size == 0) throw InputError(fmt::format("{}: the file is empty", path.string()));
-    std::ifstream stream(path, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream) throw InputError(fmt::format("{}: the file cannot be read", path.string()));
-    return bytes;
-}
 
 /// Reads the words of an ASCII STL file: solid NAME, facets, endsolid NAME.
 class AsciiParser
@@ -204,7 +185,7 @@ TriangleSoup merge_equal_corners(const Corners& corners)
 TriangleSoup read_stl(const std::filesystem::path& path)
 {
     const std::string file = path.string();
-    const std::string bytes = read_bytes(path);
+    const std::string bytes = read_bytes(path, "an STL file");
     const Corners corners = is_ascii(bytes) ? AsciiParser(file, bytes).parse() : parse_binary(file, bytes);
     if (corners.empty()) throw InputError(fmt::format("{}: it has no triangles", file));
     return merge_equal_corners(corners);

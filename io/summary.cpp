@@ -61,12 +61,17 @@ Json to_json(const ParticleLedger& ledger)
         {"escaped", ledger.escaped}, {"closes", ledger.closes()}};
 }
 
+template <class Value> Json or_null(const std::optional<Value>& value)
+{
+    return value ? Json(*value) : Json();
+}
+
 Json to_json(const std::vector<PourSummary>& pours)
 {
     Json json = Json::array();
     for (const PourSummary& pour : pours)
-        json.push_back(
-            {{"name", pour.name}, {"asked", pour.asked}, {"poured", pour.poured}, {"shortfall", pour.shortfall}});
+        json.push_back({{"name", pour.name}, {"asked", or_null(pour.asked)}, {"asked_mass", or_null(pour.asked_mass)},
+            {"poured", pour.poured}, {"poured_mass", pour.poured_mass}, {"shortfall", pour.shortfall}});
     return json;
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,11 @@ struct SensorSummary {
 
 struct PourSummary {
     std::string name;
-    std::int64_t asked = 0;  ///< spheres in all, by the scene
-    std::int64_t poured = 0; ///< that came in
-    std::string shortfall;   ///< why fewer came in than asked; empty where none is missing
+    std::optional<std::int64_t> asked; ///< spheres in all, by the scene, where it gives a count
+    std::optional<double> asked_mass;  ///< of all spheres [kg], where it gives a mass
+    std::int64_t poured = 0;           ///< spheres that came in
+    double poured_mass = 0.0;          ///< their mass [kg]
+    std::string shortfall;             ///< why fewer came in than asked; empty where none is missing
 };
 
 /// How wrong the run may be. Overlaps are in mean diameters d.

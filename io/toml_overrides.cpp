@@ -178,6 +178,10 @@ void apply_override(toml::table& root, const std::string& key_and_value)
     }
     if (depth == set.keys.size()) set.refuse("it must name one key of that table");
     for (;; ++depth) {
+        if (toml::node* element = element_at_index(node, set.keys[depth]); element && depth + 1 < set.keys.size()) {
+            node = element;
+            ++depth;
+        }
         toml::table* table = node->as_table();
         if (!table) set.refuse(fmt::format("'{}' is {} and has no keys", set.keys[depth - 1], describe_value(*node)));
         toml::node* next = table->get(set.keys[depth]);

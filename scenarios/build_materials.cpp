@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/build_materials.hpp"
 
+#include "scenarios/build_mixture.hpp"
 #include "scenarios/scene_checks.hpp"
 
 #include <cmath>
@@ -35,12 +36,17 @@ void add_law(Materials& materials, GivenPairs& given, const scene::Scene& scene,
         contact.friction, contact.restitution, contact.rolling_friction, contact.stiffness};
 }
 
+std::set<std::string> set_of(const std::vector<std::string>& names)
+{
+    return {names.begin(), names.end()};
+}
+
 /// Every pair that can meet must have a law: the materials of spheres with each other and with those of walls.
 void require_laws(const Materials& materials, const GivenPairs& given, const scene::Scene& scene)
 {
     std::set<std::string> of_spheres;
-    for (const auto& fill : scene.fill) of_spheres.insert(fill.material);
-    for (const auto& pour : scene.pour) of_spheres.insert(pour.material);
+    for (const auto& fill : scene.fill) of_spheres.merge(set_of(materials_in(fill)));
+    for (const auto& pour : scene.pour) of_spheres.merge(set_of(materials_in(pour)));
     std::set<std::string> of_all = of_spheres;
     for (const auto& wall : scene.wall) of_all.insert(wall.material);
     const auto n = materials.list.size();

@@ -60,7 +60,7 @@ WallMotion build_motion(const scene::WallTable& table, std::size_t index)
 {
     WallMotion motion;
     for (std::size_t k = 0; k < table.motion.size(); ++k)
-        motion.push_back(build_motion_part(table.motion[k], key_path("wall", index, key_path("motion", k))));
+        motion.push_back(build_motion_part(table.motion[k], key_path("wall", index, table_path("motion", k))));
     return motion;
 }
 

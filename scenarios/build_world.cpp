@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/build_world.hpp"
 
+#include "scenarios/build_mixture.hpp"
 #include "scenarios/build_region.hpp"
 #include "scenarios/build_spheres.hpp"
 #include "scenarios/scene_checks.hpp"
@@ -15,17 +16,28 @@ void find_diameters(Model& model, const scene::Scene& scene)
 {
     double sum = 0.0, count = 0.0;
     model.min_diameter = infinity;
-    const auto add = [&](const SizeDistribution& sizes, std::int64_t number) {
-        if (number == 0) return;
-        model.min_diameter = std::min(model.min_diameter, sizes.min);
-        model.max_diameter = std::max(model.max_diameter, sizes.max);
-        sum += sizes.mean() * static_cast<double>(number);
-        count += static_cast<double>(number);
+    const auto add = [&](double min, double max, double mean, double number) {
+        if (number == 0.0) return;
+        model.min_diameter = std::min(model.min_diameter, min);
+        model.max_diameter = std::max(model.max_diameter, max);
+        sum += mean * number;
+        count += number;
     };
-    for (std::size_t k = 0; k < scene.fill.size(); ++k)
-        add(build_sizes(scene.fill[k].diameter, key_path("fill", k, "diameter")), scene.fill[k].count);
-    for (std::size_t k = 0; k < scene.pour.size(); ++k)
-        add(build_sizes(scene.pour[k].diameter, key_path("pour", k, "diameter")), scene.pour[k].count);
+    const auto add_mixture = [&](const Mixture& mixture, double number) {
+        add(mixture.min_diameter(), mixture.max_diameter(), mixture.mean_diameter(), number);
+    };
+    for (std::size_t k = 0; k < scene.fill.size(); ++k) {
+        const auto& fill = scene.fill[k];
+        const auto key = table_path("fill", k);
+        if (fill.arrangement == "file")
+            for (const double radius : radii_from_file(fill, key)) add(2.0 * radius, 2.0 * radius, 2.0 * radius, 1.0);
+        else
+            add_mixture(build_mixture(fill, key, model.materials), static_cast<double>(fill.count));
+    }
+    for (std::size_t k = 0; k < scene.pour.size(); ++k) {
+        const Pour source = build_source(scene.pour[k], table_path("pour", k), model.materials);
+        add_mixture(source.mixture, expected_count(source, model.materials));
+    }
     if (count == 0.0)
         throw SceneError("fill", "the scene has no spheres: give a [[fill]] or a [[pour]] with a count above 0");
     model.mean_diameter = sum / count;
@@ -69,8 +81,11 @@ Box build_world(const scene::Scene& scene, const Model& model)
     Box box;
     for (const auto& wall : model.walls)
         if (const Box b = swept_bounds(wall, scene.time.duration); !b.empty()) box.extend(b);
-    for (std::size_t k = 0; k < scene.fill.size(); ++k)
-        box.extend(build_region(scene.fill[k].region, key_path("fill", k, "region")).bounds());
+    for (std::size_t k = 0; k < scene.fill.size(); ++k) {
+        const auto& fill = scene.fill[k];
+        if (fill.arrangement != "file") box.extend(build_region(fill.region, key_path("fill", k, "region")).bounds());
+        for (const Vec3& position : fill.spheres.positions) box.extend(Box{position, position});
+    }
     for (std::size_t k = 0; k < scene.pour.size(); ++k)
         box.extend(build_region(scene.pour[k].region, key_path("pour", k, "region")).bounds());
     for (const auto& outlet : model.outlets) box.extend(outlet.bounds());

@@ -8,6 +8,7 @@ namespace talus
 {
 
 /// The smallest, largest and mean diameter of all spheres that the scene makes, into the model.
+/// @pre the model has its materials
 /// @throws SceneError where it makes none
 void find_diameters(Model& model, const scene::Scene& scene);
 

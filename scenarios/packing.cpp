@@ -56,10 +56,10 @@ private:
     std::unordered_map<std::uint64_t, std::vector<PackedSphere>> cells_;
 };
 
-/// A grid with these spheres in it, to which spheres of these diameters may be added.
-SphereGrid grid_of(const std::vector<PackedSphere>& others, const SizeDistribution& diameter)
+/// A grid with these spheres in it, to which those of a mixture may be added.
+SphereGrid grid_of(const std::vector<PackedSphere>& others, const Mixture& mixture)
 {
-    double largest = diameter.max;
+    double largest = mixture.max_diameter();
     for (const auto& sphere : others) largest = std::max(largest, 2.0 * sphere.radius);
     SphereGrid grid(largest);
     for (const auto& sphere : others) grid.add(sphere);
@@ -90,10 +90,10 @@ struct LatticeFrame {
 
 } // namespace
 
-std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistribution& diameter, std::int64_t count,
+std::vector<PackedSphere> lattice_packing(const Region& region, const Mixture& mixture, std::int64_t count,
     double spacing, const std::vector<PackedSphere>& others, const Model& model, Random& random)
 {
-    const double a = spacing * diameter.max; // distance of nearest lattice points
+    const double a = spacing * mixture.max_diameter(); // distance of nearest lattice points
     const LatticeFrame frame(model);
     const Box bounds = region.bounds();
     const Vec3 middle = bounds.center();
@@ -103,38 +103,42 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const SizeDistri
     const auto rows = static_cast<std::int64_t>(half(frame.e1) / a) + 2;
     const auto columns = static_cast<std::int64_t>(half(frame.e2) / a) + 2;
 
-    const auto grid = grid_of(others, diameter);
+    const auto grid = grid_of(others, mixture);
     const auto walls = place_walls(model.walls, model.periodicity, 0.0);
     std::vector<PackedSphere> spheres;
+    Grain next = mixture.draw(random);
     for (std::int64_t k = 0; k < layers; ++k) {
         for (std::int64_t i = -rows; i <= rows; ++i)
             for (std::int64_t j = -columns; j <= columns; ++j) {
                 if (static_cast<std::int64_t>(spheres.size()) == count) return spheres;
-                const double radius = 0.5 * diameter.draw(random);
+                const double radius = 0.5 * next.diameter;
                 const Vec3 jitter = (0.5 * a - radius) * random_in_ball(random);
                 const Vec3 point = middle + static_cast<double>(i) * a * frame.e1 +
                                    static_cast<double>(j) * a * frame.e2 +
                                    (0.5 * a - half(frame.up) + static_cast<double>(k) * a) * frame.up;
-                const PackedSphere sphere{point + jitter, radius};
-                if (region.contains(sphere.center, radius) && !grid.overlaps(sphere) &&
-                    !touches_wall(walls, sphere.center, sphere.radius))
-                    spheres.push_back(sphere);
+                const PackedSphere sphere{point + jitter, radius, next.material};
+                if (!region.contains(sphere.center, radius) || grid.overlaps(sphere) ||
+                    touches_wall(walls, sphere.center, sphere.radius))
+                    continue;
+                spheres.push_back(sphere);
+                next = mixture.draw(random);
             }
     }
     return spheres;
 }
 
-std::vector<PackedSphere> random_packing(const Region& region, const SizeDistribution& diameter, std::int64_t count,
+std::vector<PackedSphere> random_packing(const Region& region, const Mixture& mixture, std::int64_t count,
     const std::vector<PackedSphere>& others, const Model& model, Random& random)
 {
-    auto grid = grid_of(others, diameter);
+    auto grid = grid_of(others, mixture);
     const auto walls = place_walls(model.walls, model.periodicity, 0.0);
     std::vector<PackedSphere> spheres;
     while (static_cast<std::int64_t>(spheres.size()) < count) {
-        const double radius = 0.5 * diameter.draw(random);
+        const Grain grain = mixture.draw(random);
+        const double radius = 0.5 * grain.diameter;
         bool placed = false;
         for (int k = 0; k < tries && !placed; ++k) {
-            const PackedSphere sphere{region.random_point(random, radius), radius};
+            const PackedSphere sphere{region.random_point(random, radius), radius, grain.material};
             placed = !grid.overlaps(sphere) && !touches_wall(walls, sphere.center, sphere.radius);
             if (!placed) continue;
             grid.add(sphere);

@@ -21,7 +21,8 @@ namespace talus::scene
 
 /// What a value may be. Numbers lie in [min, max], where `open` leaves min itself out, and are finite unless
 /// `infinite`; a string is one of `names` unless that is empty. A key may belong to some kinds of its table only: those
-/// that have one of the names in `of` as the value of the table's deciding key.
+/// that have one of the names in `of` as the value of the table's deciding key. A required key may be left out by the
+/// kinds in `optional_for`.
 struct Allowed {
     double min = -infinity;
     double max = infinity;
@@ -31,9 +32,16 @@ struct Allowed {
     bool required = false;
     bool decides = false;
     std::vector<std::string_view> of = {};
+    std::vector<std::string_view> optional_for = {};
 
     /// Whether a table has the key when its deciding key has this value.
     bool belongs_to(std::string_view kind) const { return of.empty() || std::ranges::find(of, kind) != of.end(); }
+
+    /// Whether a table must give the key when its deciding key has this value.
+    bool required_by(std::string_view kind) const
+    {
+        return required && std::ranges::find(optional_for, kind) == optional_for.end();
+    }
 };
 
 inline Allowed any()
@@ -69,6 +77,12 @@ inline Allowed required(Allowed allowed)
 inline Allowed deciding(Allowed allowed)
 {
     allowed.decides = true;
+    return allowed;
+}
+inline Allowed required_but_for(std::vector<std::string_view> kinds, Allowed allowed)
+{
+    allowed.required = true;
+    allowed.optional_for = std::move(kinds);
     return allowed;
 }
 inline Allowed only_for(std::vector<std::string_view> kinds, Allowed allowed)
@@ -203,49 +217,112 @@ struct RegionTable {
 struct DiameterTable {
     std::string distribution = "constant";
     double value = 0.0;
+    double mean = 0.0;
+    double median = 0.0;
+    double deviation = 0.0;
     double min = 0.0;
     double max = 0.0;
+    std::string file = {};
+
+    std::vector<double> sieve_sizes = {};   ///< [m], of the file, filled in by io, rising
+    std::vector<double> sieve_passing = {}; ///< likewise: share of the mass that passes each, from 0 to 1
 
     static void describe(auto& self, auto&& key)
     {
-        key("distribution", self.distribution, deciding(one_of({"constant", "uniform"})), "", "of diameters by number");
+        key("distribution", self.distribution,
+            deciding(one_of({"constant", "uniform", "normal", "lognormal", "sieve"})), "",
+            "of diameters: by number, but for a sieve analysis, which is by mass");
         key("value", self.value, required(only_for({"constant"}, at_least(0.0))), "m", "the diameter");
-        key("min", self.min, required(only_for({"uniform"}, at_least(0.0))), "m", "the smallest");
-        key("max", self.max, required(only_for({"uniform"}, at_least(0.0))), "m", "the largest");
+        key("mean", self.mean, required(only_for({"normal"}, above(0.0))), "m", "before min and max cut it");
+        key("median", self.median, required(only_for({"lognormal"}, above(0.0))), "m", "before min and max cut it");
+        key("deviation", self.deviation, required(only_for({"normal", "lognormal"}, above(0.0))), "",
+            "standard deviation; normal: of the diameter [m], lognormal: of its natural logarithm");
+        key("min", self.min, required(only_for({"uniform", "normal", "lognormal"}, at_least(0.0))), "m",
+            "the smallest");
+        key("max", self.max, required(only_for({"uniform", "normal", "lognormal"}, at_least(0.0))), "m", "the largest");
+        key("file", self.file, required(only_for({"sieve"}, any())), "",
+            "a CSV file, beside the scene file: size_mm or size_m, and passing_percent of the mass");
     }
+
+    /// Whether the scene gives a diameter here, where it may be left out.
+    bool given() const { return distribution != "constant" || value != 0.0; }
 };
 
-struct FillTable {
+/// One kind of sphere among several in a fill or a pour.
+struct SpeciesTable {
     std::string material;
-    std::int64_t count = 0;
     DiameterTable diameter;
-    RegionTable region;
-    std::string arrangement = "lattice";
-    double spacing = 1.1;
-    Vec3 velocity = Vec3::Zero();
-    Vec3 angular_velocity = Vec3::Zero();
+    double share = 1.0;
 
     static void describe(auto& self, auto&& key)
     {
         key("material", self.material, required(any()), "", "of the spheres");
-        key("count", self.count, required(between(0, 100000000)), "", "how many spheres are there at the start");
         key("diameter", self.diameter, required(any()), "m", "a number, or a table with a distribution");
-        key("region", self.region, required(any()), "", "where; spheres lie wholly inside");
-        key("arrangement", self.arrangement, deciding(one_of({"lattice", "random"})), "",
-            "lattice: a jittered lattice, filled from below; random: anywhere without overlap (loose fills only)");
+        key("share", self.share, required(above(0.0)), "",
+            "of the mass, in proportion to the sum of the shares of all species");
+    }
+};
+
+/// Spheres as a file lists them [m, m/s, rad/s]. A list other than that of positions is empty where the file has none.
+struct SphereList {
+    std::vector<Vec3> positions;
+    std::vector<double> radii;
+    std::vector<Vec3> velocities;
+    std::vector<Vec3> angular_velocities;
+};
+
+struct FillTable {
+    std::string arrangement = "lattice";
+    std::string material;
+    DiameterTable diameter;
+    std::vector<SpeciesTable> species;
+    std::int64_t count = 0;
+    RegionTable region;
+    double spacing = 1.1;
+    std::string file;
+    double scale = 1.0;
+    Vec3 translate = Vec3::Zero();
+    Vec3 velocity = Vec3::Zero();
+    Vec3 angular_velocity = Vec3::Zero();
+
+    SphereList spheres; ///< of the file, filled in by io, scaled and translated
+
+    static void describe(auto& self, auto&& key)
+    {
+        key("arrangement", self.arrangement, deciding(one_of({"lattice", "random", "file"})), "",
+            "lattice: a jittered lattice, filled from below; random: anywhere without overlap (loose fills only); "
+            "file: as a file lists them");
+        key("material", self.material, any(), "", "of the spheres; left out where there are species");
+        key("diameter", self.diameter, any(), "m",
+            "a number, or a table with a distribution; left out where there are species, or where the file has radii");
+        key("species", self.species, only_for({"lattice", "random"}, any()), "",
+            "several kinds of spheres, mixed at random");
+        key("count", self.count, required_but_for({"file"}, between(0, 100000000)), "",
+            "how many spheres are there at the start; file: 0, or as many as it has");
+        key("region", self.region, required(only_for({"lattice", "random"}, any())), "",
+            "where; spheres lie wholly inside");
         key("spacing", self.spacing, only_for({"lattice"}, between(1.0, 100.0)), "",
             "distance of the lattice's points / largest diameter");
-        key("velocity", self.velocity, any(), "m/s", "of the spheres at the start");
-        key("angular_velocity", self.angular_velocity, any(), "rad/s", "of the spheres at the start");
+        key("file", self.file, required(only_for({"file"}, any())), "",
+            "a .vtp, .vtu or .csv file of spheres, beside the scene file");
+        key("scale", self.scale, only_for({"file"}, above(0.0)), "",
+            "the file's positions, radii and velocities times this are in m and m/s");
+        key("translate", self.translate, only_for({"file"}, any()), "m", "moved by this after scaling");
+        key("velocity", self.velocity, any(), "m/s", "of the spheres at the start, added to that of a file");
+        key("angular_velocity", self.angular_velocity, any(), "rad/s",
+            "of the spheres at the start, added to that of a file");
     }
 };
 
 struct PourTable {
     std::string name;
     std::string material;
-    std::int64_t count = 0;
-    double rate = 0.0;
     DiameterTable diameter;
+    std::vector<SpeciesTable> species;
+    std::int64_t count = 0;
+    double mass = 0.0;
+    double rate = 0.0;
+    double mass_rate = 0.0;
     RegionTable region;
     Vec3 velocity = Vec3::Zero();
     double start = 0.0;
@@ -253,10 +330,14 @@ struct PourTable {
     static void describe(auto& self, auto&& key)
     {
         key("name", self.name, any(), "", "for --set and the report");
-        key("material", self.material, required(any()), "", "of the spheres");
-        key("count", self.count, required(between(0, 100000000)), "", "how many spheres in all");
-        key("rate", self.rate, required(above(0.0)), "1/s", "spheres per second");
-        key("diameter", self.diameter, required(any()), "m", "a number, or a table with a distribution");
+        key("material", self.material, any(), "", "of the spheres; left out where there are species");
+        key("diameter", self.diameter, any(), "m",
+            "a number, or a table with a distribution; left out where there are species");
+        key("species", self.species, any(), "", "several kinds of spheres, mixed at random");
+        key("count", self.count, between(0, 100000000), "", "how many spheres in all; 0: by 'mass'");
+        key("mass", self.mass, at_least(0.0), "kg", "of all spheres, reached by the last of them; 0: by 'count'");
+        key("rate", self.rate, at_least(0.0), "1/s", "spheres per second; 0: by 'mass_rate'");
+        key("mass_rate", self.mass_rate, at_least(0.0), "kg/s", "mass per second; 0: by 'rate'");
         key("region", self.region, required(any()), "", "where they appear; never overlapping anything");
         key("velocity", self.velocity, any(), "m/s", "with which they appear");
         key("start", self.start, at_least(0.0), "s", "when the pour begins");

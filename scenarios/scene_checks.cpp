@@ -6,14 +6,14 @@
 namespace talus
 {
 
-std::string key_path(const std::string& list, std::size_t index, const std::string& key)
-{
-    return key_path(list, index) + "." + key;
-}
-
-std::string key_path(const std::string& list, std::size_t index)
+std::string table_path(const std::string& list, std::size_t index)
 {
     return list + "[" + std::to_string(index) + "]";
+}
+
+std::string key_path(const std::string& list, std::size_t index, const std::string& key)
+{
+    return table_path(list, index) + "." + key;
 }
 
 Vec3 unit_vector(const Vec3& direction, const std::string& key)

@@ -7,11 +7,11 @@
 namespace talus
 {
 
+/// The path of a table in a list: "wall[2]".
+std::string table_path(const std::string& list, std::size_t index);
+
 /// The path of a key in a list of tables: "wall[2].material".
 std::string key_path(const std::string& list, std::size_t index, const std::string& key);
-
-/// The path of an element of a list: "motion[1]".
-std::string key_path(const std::string& list, std::size_t index);
 
 /// The direction as a unit vector. @throws SceneError where it is zero
 Vec3 unit_vector(const Vec3& direction, const std::string& key);

@@ -115,7 +115,8 @@ double fastest_speed(const Simulation& simulation)
 std::set<int> sphere_materials(const Simulation& simulation)
 {
     std::set<int> materials(simulation.state.material.begin(), simulation.state.material.end());
-    for (const auto& pour : simulation.pours) materials.insert(pour.material);
+    for (const auto& pour : simulation.pours)
+        for (const auto& species : pour.mixture.species) materials.insert(species.material);
     return materials;
 }
 

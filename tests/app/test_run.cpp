@@ -193,6 +193,12 @@ TEST_CASE("a pour that falls short says why", "[app][run]")
     REQUIRE(place.run(stream(), "--force --set pour.source.count=1000 --set pour.source.rate=1e5").exit_code == 0);
     const std::string full = json::parse(place.read("out/summary.json"))["pours"][0]["shortfall"];
     CHECK_THAT(full, Contains("no free place"));
+    REQUIRE(place.run(stream(), "--force --set pour.source.count=0 --set pour.source.mass=10").exit_code == 0);
+    const json by_mass = json::parse(place.read("out/summary.json"))["pours"][0];
+    CHECK(by_mass["asked"].is_null());
+    CHECK(by_mass["asked_mass"] == 10.0);
+    CHECK(by_mass["poured_mass"] > 0.0);
+    CHECK_THAT(by_mass["shortfall"].get<std::string>(), Contains("ended before"));
 }
 
 TEST_CASE("the resolved scene runs again to the same metrics", "[app][run]")

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "tests/io/scene_folder.hpp"
+
 namespace talus::test
 {
 
-/// A scene with every kind of table; its funnel.stl must lie beside it.
+/// A scene with every kind of table; its funnel.stl, sieves.csv and spheres.csv must lie beside it.
 inline constexpr const char* full_scene = R"(
 title = 'A "quoted" title, a tab	, a \ and µ'
 seed = 7
@@ -31,6 +33,29 @@ material = "glass"
 count = 1_000
 diameter = 0.01
 region = { shape = "cylinder", radius = 0.3333333333333333, height = 1 }
+[[fill]]
+count = 10
+region = { max = [1, 1, 1] }
+[[fill.species]]
+material = "glass"
+diameter = { distribution = "sieve", file = "sieves.csv" }
+share = 2
+[[fill.species]]
+material = "dark wood"
+diameter = { distribution = "lognormal", median = 0.01, deviation = 0.2, min = 0.005, max = 0.02 }
+share = 1
+[[fill]]
+arrangement = "file"
+file = "spheres.csv"
+material = "glass"
+scale = 0.001
+translate = [0, 0, 2]
+[[pour]]
+material = "glass"
+mass = 0.5
+mass_rate = 0.1
+diameter = { distribution = "normal", mean = 0.01, deviation = 0.001, min = 0.008, max = 0.012 }
+region = { max = [1, 1, 1] }
 [[pour]]
 material = "glass"
 count = 5
@@ -74,5 +99,19 @@ point = [0, 0, 1]
 /// An ASCII STL file.
 inline constexpr const char* one_triangle = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1000 0 0\n"
                                             "vertex 0 1000 0\nendloop\nendfacet\nendsolid\n";
+
+/// A sieve analysis.
+inline constexpr const char* two_sieves = "size_mm, passing_percent\n5, 0\n10, 100\n";
+
+/// Two spheres, in millimetres.
+inline constexpr const char* two_spheres = "x,y,z,radius\n0,0,10,5\n20,0,10,10\n";
+
+/// Writes the files that the full scene names.
+inline void write_named_files(const SceneFolder& folder)
+{
+    folder.write("funnel.stl", one_triangle);
+    folder.write("sieves.csv", two_sieves);
+    folder.write("spheres.csv", two_spheres);
+}
 
 } // namespace talus::test

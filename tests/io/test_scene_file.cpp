@@ -23,7 +23,7 @@ std::string refusal_of(const SceneFolder& folder, const std::string& text)
 TEST_CASE("the values of a scene file arrive, the rest keeps its defaults", "[scene_file]")
 {
     const SceneFolder folder;
-    folder.write("funnel.stl", one_triangle);
+    write_named_files(folder);
     const scene::Scene scene = read_scene(folder.write("scene.toml", full_scene)).scene;
     CHECK(scene.title == "A \"quoted\" title, a tab\t, a \\ and µ");
     CHECK(scene.time.step.name.empty());
@@ -37,7 +37,9 @@ TEST_CASE("the values of a scene file arrive, the rest keeps its defaults", "[sc
     CHECK(scene.fill.at(0).count == 1000);
     CHECK(scene.fill[0].diameter.distribution == "constant");
     CHECK(scene.fill[0].diameter.value == 0.01);
-    CHECK(scene.pour.at(0).diameter.max == 0.0105);
+    CHECK(scene.fill.at(1).species.size() == 2);
+    CHECK(scene.pour.at(0).diameter.mean == 0.01);
+    CHECK(scene.pour.at(1).diameter.max == 0.0105);
     CHECK(scene.wall.at(0).open == std::vector<std::string>{"z+", "x-"});
     CHECK(scene.sensor.at(0).to == infinity);
 }
@@ -45,7 +47,7 @@ TEST_CASE("the values of a scene file arrive, the rest keeps its defaults", "[sc
 TEST_CASE("a wall's mesh is read from beside the scene, scaled and then moved", "[scene_file]")
 {
     const SceneFolder folder;
-    folder.write("funnel.stl", one_triangle);
+    write_named_files(folder);
     const scene::WallTable funnel = read_scene(folder.write("scene.toml", full_scene)).scene.wall.at(1);
     REQUIRE(funnel.triangles.size() == 1);
     CHECK(funnel.vertices[static_cast<std::size_t>(funnel.triangles[0][1])].isApprox(Vec3(1, 0, 1)));
@@ -88,4 +90,33 @@ TEST_CASE("a missing or broken mesh is refused at the key that names it", "[scen
     CHECK(refusal_of(folder, scene) == "scene.toml:4:8: wall 'w': w.stl: no such file");
     folder.write("w.stl", "solid\nfacet\n");
     CHECK(refusal_of(folder, scene) == "scene.toml:4:8: wall 'w': w.stl:3: the file ends where 'normal' is wanted");
+}
+
+TEST_CASE("spheres and sieves are read from beside the scene, scaled and then moved", "[scene_file]")
+{
+    const SceneFolder folder;
+    write_named_files(folder);
+    const scene::Scene scene = read_scene(folder.write("scene.toml", full_scene)).scene;
+    const scene::DiameterTable& sieved = scene.fill.at(1).species.at(0).diameter;
+    CHECK(sieved.sieve_sizes == std::vector<double>{0.005, 0.01});
+    CHECK(sieved.sieve_passing == std::vector<double>{0.0, 1.0});
+    const scene::SphereList& spheres = scene.fill.at(2).spheres;
+    REQUIRE(spheres.positions.size() == 2);
+    CHECK(spheres.positions[1].isApprox(Vec3(0.02, 0, 2.01)));
+    CHECK(spheres.radii == std::vector<double>{0.005, 0.01});
+    CHECK(spheres.velocities.empty());
+}
+
+TEST_CASE("a broken file of spheres or sieves is refused at the key that names it", "[scene_file]")
+{
+    const SceneFolder folder;
+    const std::string fill = "[[fill]]\nmaterial = 'a'\narrangement = 'file'\nfile = 's.csv'\n";
+    CHECK(refusal_of(folder, fill) == "scene.toml:4:8: s.csv: no such file");
+    folder.write("s.csv", "x,y,z\n0,0\n");
+    CHECK(refusal_of(folder, fill) == "scene.toml:4:8: s.csv:2: the header names 3 columns, this line has 2");
+    const std::string pour = "[[pour]]\nregion = { max = [1, 1, 1] }\n[[pour.species]]\nmaterial = 'a'\nshare = 1\n"
+                             "diameter = { distribution = 'sieve', file = 's.csv' }\n";
+    CHECK(refusal_of(folder, pour) ==
+          "scene.toml:6:45: s.csv:1: unknown column 'x'; the header may name 'size_mm', 'size_m' and "
+          "'passing_percent'");
 }

@@ -105,7 +105,8 @@ TEST_CASE("an unknown name of a choice is refused with the names and the nearest
 
 TEST_CASE("a key that must be there is asked for by name and meaning", "[scene_reader]")
 {
-    CHECK(refusal_of("[[fill]]\ncount = 3\n") == "scene.toml:1:1: [[fill]] needs the key 'material' (of the spheres)");
+    CHECK(refusal_of("[[fill]]\ncount = 3\n") ==
+          "scene.toml:1:1: [[fill]] needs the key 'region' (where; spheres lie wholly inside)");
     CHECK(refusal_of("[[sensor]]\nname = 's'\n") == "scene.toml:1:1: [[sensor]] needs the key 'kind'");
 }
 
@@ -121,7 +122,8 @@ TEST_CASE("a key of another shape is refused with the shapes that have it and th
           "scene.toml:2:29: key 'radius' in [region] goes with shape 'cylinder', not 'box', whose keys are 'shape', "
           "'min' and 'max'");
     CHECK(refusal_of("[[fill]]\nmaterial = 'a'\ncount = 1\ndiameter = { value = 1, max = 2 }\n") ==
-          "scene.toml:4:25: key 'max' in [diameter] goes with distribution 'uniform', not 'constant', whose keys are "
+          "scene.toml:4:25: key 'max' in [diameter] goes with distribution 'uniform', 'normal' or 'lognormal', not "
+          "'constant', whose keys are "
           "'distribution' and 'value'");
     CHECK(refusal_of("[[fill]]\nspacing = 1.2\narrangement = 'random'\n")
               .starts_with("scene.toml:2:1: key 'spacing' in [[fill]] goes with arrangement 'lattice', not 'random'"));
@@ -137,4 +139,57 @@ TEST_CASE("a key that a shape must have is asked for where the table stands", "[
     CHECK(refusal_of("[[wall]]\nname = 'w'\nmaterial = 'a'\n") ==
           "scene.toml:1:1: [[wall]] needs the key 'mesh' (an STL file, beside the scene file)");
     CHECK(refusal_of("[[outlet]]\nregion = {}\n") == "scene.toml:2:10: [region] needs the key 'max' (upper corner)");
+}
+
+TEST_CASE("a key that one kind of table may leave out is asked for in the others", "[scene_reader]")
+{
+    CHECK(
+        refusal_of("[[fill]]\nmaterial = 'a'\nregion = { max = [1, 1, 1] }\n") ==
+        "scene.toml:1:1: [[fill]] needs the key 'count' (how many spheres are there at the start; file: 0, or as many "
+        "as it has)");
+    CHECK(
+        refusal_of("[[fill]]\nmaterial = 'a'\narrangement = 'file'\n") ==
+        "scene.toml:1:1: [[fill]] needs the key 'file' (a .vtp, .vtu or .csv file of spheres, beside the scene file)");
+    CHECK(refusal_of("[[fill]]\narrangement = 'file'\nfile = 'a.csv'\nregion = { max = [1, 1, 1] }\n")
+              .starts_with("scene.toml:4:1: key 'region' in [[fill]] goes with arrangement 'lattice' or 'random', not "
+                           "'file', whose keys are "));
+    CHECK(refusal_of("[[fill]]\narrangement = 'file'\nfile = 'a.csv'\nspecies = []\n")
+              .starts_with("scene.toml:4:1: key 'species' in [[fill]] goes with arrangement"));
+}
+
+TEST_CASE("a distribution is asked for what it needs, and takes no more", "[scene_reader]")
+{
+    const auto refusal = [](const std::string& diameter) {
+        return refusal_of("[[fill]]\ncount = 1\nregion = { max = [1, 1, 1] }\ndiameter = " + diameter + "\n");
+    };
+    CHECK(refusal("{ distribution = 'normal', mean = 1, deviation = 1, max = 1 }") ==
+          "scene.toml:4:12: [diameter] needs the key 'min' (the smallest)");
+    CHECK(refusal("{ distribution = 'lognormal', deviation = 1, min = 1, max = 1 }") ==
+          "scene.toml:4:12: [diameter] needs the key 'median' (before min and max cut it)");
+    CHECK(refusal("{ distribution = 'normal', mean = 1, deviation = 0, min = 1, max = 1 }") ==
+          "scene.toml:4:61: 'deviation' must be a number above 0, not 0");
+    CHECK(refusal("{ distribution = 'lognormal', mean = 1 }") ==
+          "scene.toml:4:42: key 'mean' in [diameter] goes with distribution 'normal', not 'lognormal', whose keys are "
+          "'distribution', 'median', 'deviation', 'min' and 'max'");
+    CHECK(refusal("{ distribution = 'sieve' }") ==
+          "scene.toml:4:12: [diameter] needs the key 'file' (a CSV file, beside the scene file: size_mm or size_m, and "
+          "passing_percent of the mass)");
+    CHECK(refusal("{ distribution = 'sieve', file = 's.csv', min = 1 }")
+              .starts_with("scene.toml:4:54: key 'min' in [diameter] goes with distribution 'uniform', 'normal' or"));
+}
+
+TEST_CASE("a species is a table with all its keys", "[scene_reader]")
+{
+    const auto refusal = [](const std::string& list, const std::string& species) {
+        return refusal_of("[[" + list + "]]\ncount = 1\nregion = { max = [1, 1, 1] }\nspecies = " + species + "\n");
+    };
+    CHECK(
+        refusal("fill", "[{ material = 'a', diameter = 0.1 }]") ==
+        "scene.toml:4:12: [[fill.species]] needs the key 'share' (of the mass, in proportion to the sum of the shares "
+        "of all species)");
+    CHECK(refusal("pour", "[{ material = 'a', share = 0.1 }]") ==
+          "scene.toml:4:12: [[pour.species]] needs the key 'diameter' (a number, or a table with a distribution)");
+    CHECK(refusal("pour", "[{ material = 'a', diameter = 0.1, share = 0 }]") ==
+          "scene.toml:4:54: 'share' must be a number above 0, not 0");
+    CHECK(refusal("fill", "0.5") == "scene.toml:4:11: 'species' must be a list of tables [[fill.species]], not 0.5");
 }

@@ -11,7 +11,7 @@ using namespace talus::test;
 TEST_CASE("the resolved scene reads back to itself, from another folder too", "[scene_file]")
 {
     const SceneFolder folder, elsewhere;
-    folder.write("funnel.stl", one_triangle);
+    write_named_files(folder);
     const std::string resolved = resolved_scene(read_scene(folder.write("scene.toml", full_scene)).scene);
     const scene::Scene again = read_scene(elsewhere.write("scene.resolved.toml", resolved)).scene;
     CHECK(resolved_scene(again) == resolved);
@@ -20,6 +20,9 @@ TEST_CASE("the resolved scene reads back to itself, from another folder too", "[
     CHECK(again.time.frame_interval == infinity);
     CHECK(again.contact[0].between == std::vector<std::string>{"glass", "dark wood"});
     CHECK(again.wall[1].triangles.size() == 1);
+    CHECK(again.fill.at(1).species.at(0).diameter.sieve_sizes.size() == 2);
+    CHECK(again.fill[1].species.at(1).diameter.median == 0.01);
+    CHECK(again.fill.at(2).spheres.positions.at(0).isApprox(Vec3(0, 0, 2.01)));
 }
 
 TEST_CASE("every key of the defaults is in the resolved scene", "[scene_file]")

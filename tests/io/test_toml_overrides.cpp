@@ -57,6 +57,19 @@ TEST_CASE("an override reaches tables by name, by pair of materials and by index
     CHECK(by_index.wall[0].point == Vec3(0, 0, 1));
 }
 
+TEST_CASE("an override reaches the species of a fill by index", "[toml_overrides]")
+{
+    const std::string text = "[[fill]]\ncount = 1\nregion = { max = [1, 1, 1] }\n"
+                             "[[fill.species]]\nmaterial = 'a'\ndiameter = 0.1\nshare = 1\n"
+                             "[[fill.species]]\nmaterial = 'b'\ndiameter = 0.1\nshare = 1\n";
+    const scene::Scene scene = scene_with({"fill.0.species.1.share=3", "fill.0.species.1.material=c"}, text);
+    CHECK(scene.fill[0].species[0].share == 1.0);
+    CHECK(scene.fill[0].species[1].share == 3.0);
+    CHECK(scene.fill[0].species[1].material == "c");
+    CHECK(error_of<InputError>([&] { scene_with({"fill.0.species.2.share=3"}, text); }) ==
+          "--set fill.0.species.2.share=3: 'species' is an array of 2 and has no keys");
+}
+
 TEST_CASE("an override makes the plain tables that the file leaves out", "[toml_overrides]")
 {
     CHECK(scene_with({"time.duration=2.5"}).time.duration == 2.5);

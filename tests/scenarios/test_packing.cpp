@@ -10,7 +10,8 @@ using namespace talus::test;
 namespace
 {
 
-constexpr SizeDistribution sizes{0.008, 0.01};
+const SizeDistribution sizes{.min = 0.008, .max = 0.01};
+const Mixture grains{{Species{0, sizes}}};
 
 Region box_of(double edge)
 {
@@ -42,8 +43,8 @@ std::vector<PackedSphere> pack(const std::string& arrangement, const Region& reg
     const Model& model, std::uint64_t seed = 1, const std::vector<PackedSphere>& others = {})
 {
     Random random(seed);
-    return arrangement == "lattice" ? lattice_packing(region, sizes, count, 1.1, others, model, random)
-                                    : random_packing(region, sizes, count, others, model, random);
+    return arrangement == "lattice" ? lattice_packing(region, grains, count, 1.1, others, model, random)
+                                    : random_packing(region, grains, count, others, model, random);
 }
 
 /// Least gap between any two of the spheres.
