@@ -105,6 +105,7 @@ struct WorldTable {
     Vec3 gravity = Vec3(0, 0, -9.81);
     Vec3 min = Vec3::Constant(-infinity);
     Vec3 max = Vec3::Constant(infinity);
+    std::string on_escape = "stop";
 
     static void describe(auto& self, auto&& key)
     {
@@ -113,6 +114,9 @@ struct WorldTable {
             "lower corner of the world that no sphere may leave; -inf: from the walls, fills, pours and outlets, grown "
             "by five diameters");
         key("max", self.max, or_infinite(any()), "m", "upper corner; inf: likewise, and open upwards");
+        key("on_escape", self.on_escape, one_of({"stop", "remove"}), "",
+            "a sphere that leaves the world other than through an outlet stops the run; or it is taken out, counted, "
+            "kept in lost.vtp, and the run goes on");
     }
 };
 
@@ -371,6 +375,19 @@ struct OutputTable {
     }
 };
 
+struct CheckpointTable {
+    double interval = infinity;
+    double wall_interval = 600.0;
+
+    static void describe(auto& self, auto&& key)
+    {
+        key("interval", self.interval, or_infinite(above(0.0)), "s",
+            "simulated time between checkpoints; inf: none for its sake");
+        key("wall_interval", self.wall_interval, or_infinite(above(0.0)), "s",
+            "time by the clock between checkpoints; inf: none for its sake");
+    }
+};
+
 struct Scene {
     std::string title;
     std::int64_t seed = 1;
@@ -378,6 +395,7 @@ struct Scene {
     WorldTable world;
     SolverTable solver;
     OutputTable output;
+    CheckpointTable checkpoint;
     std::vector<MaterialTable> materials; ///< in the file a table of tables: [materials.NAME]
     std::vector<ContactTable> contact;
     std::vector<FillTable> fill;
@@ -394,6 +412,7 @@ struct Scene {
         key("world", self.world, any(), "", "");
         key("solver", self.solver, any(), "", "");
         key("output", self.output, any(), "", "");
+        key("checkpoint", self.checkpoint, any(), "", "");
         key("materials", self.materials, any(), "", "one table for each material");
         key("contact", self.contact, any(), "", "one table for each pair of materials that may touch");
         key("fill", self.fill, any(), "", "spheres there at the start");

@@ -15,7 +15,7 @@ constexpr std::int64_t outlet_interval =
 
 void Simulation::persist(Archive& archive)
 {
-    archive(state, contacts, pours, outflow);
+    archive(state, contacts, pours, outflow, escaped);
     for (const auto& sensor : sensors) archive(*sensor);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/contact_network.hpp"
+#include "core/escape.hpp"
 #include "core/model.hpp"
 #include "core/outlet.hpp"
 #include "core/pour.hpp"
@@ -23,6 +24,7 @@ struct Simulation {
     ContactNetwork contacts;
     std::vector<Pour> pours;
     Outflow outflow;
+    std::vector<EscapedSphere> escaped; ///< and taken out, where the scene says so
     std::vector<std::unique_ptr<Sensor>> sensors;
     double duration = 0.0;         ///< [s]
     std::string step_explanation;  ///< one line: where the time step comes from
