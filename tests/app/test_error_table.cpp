@@ -73,6 +73,13 @@ Situation after_run(const std::string& text, const std::string& before, const st
     return {text, std::string(TALUS_BINARY) + " " + run + (before.empty() ? "" : "; " + before), arguments};
 }
 
+/// A run that gets a signal when it has begun.
+std::string stopped_by(const std::string& signal)
+{
+    return run + " --until 9 & pid=$!; until [ -e out/frames/particles_000002.vtp ]; do sleep 0.005; done; kill -" +
+           signal + " $pid; wait $pid";
+}
+
 /// The rows of the table. A new message is a new line here; TALUS_UPDATE_TABLES=1 then writes the table.
 const std::vector<Situation> situations = {
     {"no verb", "", ""},
@@ -158,6 +165,8 @@ const std::vector<Situation> situations = {
     {"a sphere that is too fast", "",
         "run bead.toml --quiet --until 9 --set 'world.min=[-inf, -inf, -1e4]' "
         "--set 'world.max=[1e4, inf, inf]'"},
+    {"SIGINT", "", stopped_by("INT")},
+    {"SIGTERM", "", stopped_by("TERM")},
     {"a folder that cannot be made", "touch file", "run scene.toml -o file/out"},
     {"a log file that cannot be written", "", run + " --log-file nowhere/log"},
     {"a disk that is full", "trap \"\" XFSZ; ulimit -f 16", run + " --set time.metrics_interval=1e-4"},
