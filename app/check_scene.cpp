@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/check_scene.hpp"
 
+#include "app/terminal.hpp"
 #include "io/input_error.hpp"
-
-#include <fmt/format.h>
 
 #include <cmath>
 
@@ -21,6 +20,7 @@ constexpr double passing_memory = 300.0;      ///< for a sphere, while the searc
 constexpr double particle_frame_bytes = 50.0; ///< for a sphere, compressed (measured)
 constexpr double contact_frame_bytes = 50.0;  ///< for a contact, likewise
 constexpr double metrics_row_bytes = 200.0;
+constexpr double checkpoint_bytes = 400.0; ///< for a sphere (measured); two checkpoints are kept
 
 std::size_t triangle_count(const Model& model)
 {
@@ -65,61 +65,66 @@ double disk_estimate(const OpenedScene& opened, double spheres)
     const double contacts = contacts_per_sphere * spheres;
     return frame_count(time.duration, time.frame_interval) * spheres * particle_frame_bytes +
            frame_count(time.duration, opened.scene.output.contact_interval) * contacts * contact_frame_bytes +
-           time.duration / time.metrics_interval * metrics_row_bytes;
+           time.duration / time.metrics_interval * metrics_row_bytes + 2.0 * spheres * checkpoint_bytes;
 }
 
 void print_needs(const OpenedScene& opened)
 {
     const Simulation& simulation = opened.simulation;
     const double spheres = static_cast<double>(simulation.state.count()) + poured_count(simulation);
-    fmt::print("steps: {:.0f}\n", std::ceil(simulation.duration / simulation.model.time_step));
-    fmt::print("memory: about {:.0f} MB\n", 1e-6 * memory_estimate(simulation, spheres));
-    fmt::print("disk: up to {:.0f} MB\n", std::ceil(1e-6 * disk_estimate(opened, spheres)));
+    say("steps: {:.0f}\n", std::ceil(simulation.duration / simulation.model.time_step));
+    say("memory: about {:.0f} MB\n", 1e-6 * memory_estimate(simulation, spheres));
+    say("disk: up to {:.0f} MB\n", std::ceil(1e-6 * disk_estimate(opened, spheres)));
 }
 
-void print_overlaps_at_start(const Simulation& simulation)
+void print_overlaps_at_start(const Simulation& simulation, const OverlapCheck& overlaps)
 {
-    const OverlapCheck overlaps = check_overlaps(simulation);
     if (overlaps.count == 0) {
-        fmt::print("overlaps at the start: none\n");
+        say("overlaps at the start: none\n");
         return;
     }
     const std::string other =
         overlaps.wall < 0
             ? fmt::format("sphere {}", overlaps.id_b)
             : fmt::format("wall '{}'", simulation.model.walls[static_cast<std::size_t>(overlaps.wall)].name);
-    fmt::print("overlaps at the start: {}, the worst {:.2g} % d of sphere {} with {}\n", overlaps.count,
+    say("overlaps at the start: {}, the worst {:.2g} % d of sphere {} with {}\n", overlaps.count,
         100.0 * overlaps.worst / simulation.model.mean_diameter, overlaps.id_a, other);
 }
 
 } // namespace
 
-void print_explanations(const Simulation& simulation)
+void print_explanations(const Simulation& simulation, const OverlapCheck& overlaps)
 {
-    fmt::print("{}\n{}\n{}\n", simulation.step_explanation, simulation.model_explanation, simulation.overlap_forecast);
-    print_overlaps_at_start(simulation);
+    say("{}\n{}\n{}\n", simulation.step_explanation, simulation.model_explanation, simulation.overlap_forecast);
+    print_overlaps_at_start(simulation, overlaps);
 }
 
-void print_scene(const OpenedScene& opened)
+void print_scene(const OpenedScene& opened, const OverlapCheck& overlaps)
 {
     const Simulation& simulation = opened.simulation;
-    fmt::print("{}: {}\n", opened.name, opened.scene.title);
-    fmt::print("spheres: {} at the start, {:.0f} poured in; {:.4g} to {:.4g} m in diameter\n", simulation.state.count(),
+    say("{}: {}\n", opened.name, opened.scene.title);
+    say("spheres: {} at the start, {:.0f} poured in; {:.4g} to {:.4g} m in diameter\n", simulation.state.count(),
         poured_count(simulation), simulation.model.min_diameter, simulation.model.max_diameter);
-    fmt::print("walls: {} with {} triangles; materials: {}; outlets: {}; sensors: {}\n", simulation.model.walls.size(),
+    say("walls: {} with {} triangles; materials: {}; outlets: {}; sensors: {}\n", simulation.model.walls.size(),
         triangle_count(simulation.model), simulation.model.materials.list.size(), simulation.model.outlets.size(),
         simulation.sensors.size());
-    print_explanations(simulation);
+    print_explanations(simulation, overlaps);
     print_needs(opened);
+}
+
+void check_scene(const OpenedScene& opened)
+{
+    print_scene(opened, check_overlaps(opened.simulation));
+    say("\n{}", resolved_scene(opened.scene));
 }
 
 void list_scenes()
 {
     for (const auto& path : supplied_scenes()) {
         try {
-            fmt::print("{:<16} {}\n", path.stem().string(), read_scene(path).scene.title);
+            say("{:<16} {}\n", path.stem().string(), read_scene(path).scene.title);
         } catch (const InputError& error) {
-            fmt::print("{:<16} cannot be read: {}\n", path.stem().string(), error.what());
+            say("{:<16} cannot be read: {}\n", path.stem().string(), error.what());
         }
     }
 }

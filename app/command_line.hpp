@@ -20,14 +20,17 @@ enum class Verbosity { quiet, normal, verbose };
 
 /// What the user asked for.
 struct CommandLine {
-    enum class Verb { run, check, list };
+    enum class Verb { run, resume, check, keys, list };
     Verb verb = Verb::list;
     std::string scene;                  ///< a path, or a name in scenarios/
+    std::string table;                  ///< of keys: the one to show; empty: all
     std::vector<std::string> overrides; ///< key=value
     std::optional<std::int64_t> seed;
     std::optional<double> until; ///< [s]
-    std::filesystem::path out;   ///< empty: out/<scene name>
+    std::filesystem::path out;   ///< of run: empty for out/<scene name>; of resume: the run's folder
+    std::filesystem::path log;   ///< empty: no log file
     bool force = false;
+    bool relax = false;
     int threads = 0; ///< 0: as many as OpenMP takes, all cores unless its environment says otherwise
     Verbosity verbosity = Verbosity::normal;
 };

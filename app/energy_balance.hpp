@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/archive.hpp"
 #include "core/time_step.hpp"
 
 #include <optional>
@@ -20,6 +21,8 @@ public:
     double lost() const { return lost_; }     ///< sum of the falls [J]
     double gained() const { return gained_; } ///< sum of the rises [J]
     double put_in() const { return put_in_; } ///< work of moving walls, and of gravity along periodic axes [J]
+
+    void persist(Archive& archive) { archive(lost_, gained_, motion_energy_, total_energy_); }
 
 private:
     double lost_ = 0.0, gained_ = 0.0, put_in_ = 0.0;

@@ -10,7 +10,9 @@ enum class ExitCode {
     input = 2,   ///< wrong usage or a wrong scene
     physics = 3, ///< a sphere escaped, is not a number or blew up
     output = 4,  ///< a file cannot be written
-    internal = 70
+    internal = 70,
+    interrupted = 130, ///< by SIGINT, after a checkpoint
+    terminated = 143   ///< by SIGTERM, likewise
 };
 
 } // namespace talus

@@ -3,11 +3,12 @@
 #include "app/command_line.hpp"
 #include "app/exit_code.hpp"
 #include "app/open_scene.hpp"
+#include "app/resume_run.hpp"
 #include "app/run_scene.hpp"
 #include "app/short_spins.hpp"
+#include "app/terminal.hpp"
 #include "io/input_error.hpp"
-
-#include <fmt/format.h>
+#include "io/key_table.hpp"
 
 namespace talus
 {
@@ -16,11 +17,17 @@ namespace
 
 ExitCode execute(const CommandLine& line)
 {
+    if (!line.log.empty()) open_log(line.log);
     switch (line.verb) {
     case CommandLine::Verb::run:
         return run_scene(line);
+    case CommandLine::Verb::resume:
+        return resume_run(line);
     case CommandLine::Verb::check:
-        print_scene(open_scene(line));
+        check_scene(open_scene(line));
+        break;
+    case CommandLine::Verb::keys:
+        say_text(key_table(line.table));
         break;
     case CommandLine::Verb::list:
         list_scenes();
@@ -31,7 +38,7 @@ ExitCode execute(const CommandLine& line)
 
 ExitCode fail(ExitCode code, const std::string& sentence)
 {
-    fmt::print(stderr, "{}\n", sentence);
+    warn("{}\n", sentence);
     return code;
 }
 

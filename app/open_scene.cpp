@@ -28,27 +28,32 @@ fs::path find_scene(const std::string& scene)
         fmt::format("there is no scene '{}': it is neither a file nor one of {}", scene, fmt::join(names, ", ")));
 }
 
-SceneFile read_scene_as_asked(const CommandLine& line)
+} // namespace
+
+SceneFile read_scene_as_asked(const fs::path& path, const CommandLine& line)
 {
-    SceneFile file = read_scene(find_scene(line.scene), line.overrides);
+    SceneFile file = read_scene(path, line.overrides);
     if (line.seed) file.scene.seed = *line.seed;
     if (line.until) file.scene.time.duration = *line.until;
     return file;
 }
 
-} // namespace
-
-OpenedScene open_scene(const CommandLine& line)
+OpenedScene build_opened(SceneFile file, std::string name)
 {
-    SceneFile file = read_scene_as_asked(line);
     try {
         Simulation simulation = build_scene(file.scene);
-        return {file.path.stem(), std::move(file.scene), std::move(simulation)};
+        return {std::move(name), std::move(file.scene), std::move(simulation)};
     } catch (const SceneError& error) {
         const std::string first =
             error.first_key.empty() ? "" : fmt::format("; the first is at {}", file.place_of(error.first_key));
         throw InputError(fmt::format("{}: {}{}", file.place_of(error.key), error.what(), first));
     }
+}
+
+OpenedScene open_scene(const CommandLine& line)
+{
+    const fs::path path = find_scene(line.scene);
+    return build_opened(read_scene_as_asked(path, line), path.stem());
 }
 
 std::vector<fs::path> supplied_scenes()

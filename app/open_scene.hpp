@@ -23,6 +23,14 @@ struct OpenedScene {
 /// @throws InputError with file, line and column; UsageError where there is no such scene
 OpenedScene open_scene(const CommandLine& line);
 
+/// Reads a scene file with what the command line changes in it.
+/// @throws InputError with file, line and column
+SceneFile read_scene_as_asked(const std::filesystem::path& path, const CommandLine& line);
+
+/// Builds a scene that was read.
+/// @throws InputError with file, line and column
+OpenedScene build_opened(SceneFile file, std::string name);
+
 /// The scene files that come with Talus, by name.
 std::vector<std::filesystem::path> supplied_scenes();
 

@@ -39,6 +39,11 @@ void PhaseClock::begin(RunPhase phase)
     current_ = phase;
 }
 
+void PhaseClock::persist(Archive& archive)
+{
+    for (PhaseTime& phase : phases_) archive(phase.wall, phase.cpu);
+}
+
 double PhaseClock::wall() const
 {
     return seconds(CLOCK_MONOTONIC) - start_.wall;

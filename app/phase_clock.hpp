@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/archive.hpp"
 #include "core/time_step.hpp"
 #include "io/summary.hpp"
 
-#include <array>
 #include <vector>
 
 namespace talus
@@ -26,6 +26,9 @@ public:
 
     /// Time since the clock was made [s].
     double wall() const;
+
+    /// Stores or puts back what the phases have taken, for a run in several parts.
+    void persist(Archive& archive);
 
     /// What each phase has taken up to the last `begin`.
     const std::vector<PhaseTime>& phases() const { return phases_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/progress.hpp"
 
-#include <fmt/format.h>
+#include "app/terminal.hpp"
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -34,8 +34,9 @@ std::string cut_to_terminal(const std::string& text)
 
 } // namespace
 
-Progress::Progress(Verbosity verbosity, double duration)
-    : verbosity_(verbosity), terminal_(isatty(STDERR_FILENO) == 1), duration_(duration),
+Progress::Progress(Verbosity verbosity, const Simulation& simulation)
+    : verbosity_(verbosity), terminal_(isatty(STDERR_FILENO) == 1), duration_(simulation.duration),
+      start_(simulation.state.time), first_step_(simulation.state.steps),
       interval_(terminal_ ? terminal_interval : log_interval), next_(interval_)
 {
 }
@@ -45,18 +46,19 @@ void Progress::update(const Simulation& simulation, const StepReport& report, do
     if (verbosity_ == Verbosity::quiet || wall < next_) return;
     next_ = wall + interval_;
     const std::string text = line(simulation, report, wall);
-    if (terminal_)
-        fmt::print(stderr, "\r{}\x1b[K", cut_to_terminal(text)); // clearing what a longer line leaves behind
-    else
-        fmt::print(stderr, "{}\n", text);
-    line_open_ = terminal_;
+    if (!terminal_) return warn("{}\n", text);
+    fmt::print(stderr, "\r{}\x1b[K", cut_to_terminal(text)); // clearing what a longer line leaves behind
+    line_open_ = true;
+    if (wall < next_logged_) return;
+    next_logged_ = wall + log_interval;
+    log_text(text);
 }
 
 void Progress::frame_written(const Simulation& simulation, const StepReport& report, double wall)
 {
     if (verbosity_ != Verbosity::verbose) return;
     finish();
-    fmt::print(stderr, "frame: {}\n", line(simulation, report, wall));
+    warn("frame: {}\n", line(simulation, report, wall));
 }
 
 void Progress::finish()
@@ -68,13 +70,14 @@ void Progress::finish()
 std::string Progress::line(const Simulation& simulation, const StepReport& report, double wall) const
 {
     const State& state = simulation.state;
-    const double share = duration_ > 0.0 ? std::min(1.0, state.time / duration_) : 1.0;
+    const double share = duration_ > start_ ? std::min(1.0, (state.time - start_) / (duration_ - start_)) : 1.0;
     const double remaining = share > 0.0 ? wall * (1.0 - share) / share : 0.0;
     return fmt::format(
         "t {:.4g} s  {:.0f} %  ETA {}  step {}  {:.0f} steps/s  {} spheres  {} contacts  residual {:.1e}  "
         "overlap {:.2g} % d",
-        state.time, 100.0 * share, clock_time(remaining), state.steps, static_cast<double>(state.steps) / wall,
-        state.count(), report.contacts, report.residual, 100.0 * report.worst_overlap / simulation.model.mean_diameter);
+        state.time, 100.0 * state.time / duration_, clock_time(remaining), state.steps,
+        static_cast<double>(state.steps - first_step_) / wall, state.count(), report.contacts, report.residual,
+        100.0 * report.worst_overlap / simulation.model.mean_diameter);
 }
 
 } // namespace talus

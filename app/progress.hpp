@@ -14,10 +14,11 @@ namespace talus
 class Progress
 {
 public:
-    Progress(Verbosity verbosity, double duration);
+    /// @param simulation as it begins, or as it is resumed
+    Progress(Verbosity verbosity, const Simulation& simulation);
 
     /// Shows the step just made if it is time for that.
-    /// @param wall time since the run began [s]
+    /// @param wall time since the run began or was resumed [s]
     void update(const Simulation& simulation, const StepReport& report, double wall);
 
     /// A line for a frame just written, if the user wants to hear of it.
@@ -31,9 +32,11 @@ private:
 
     Verbosity verbosity_;
     bool terminal_;
-    double duration_;
-    double interval_;   ///< between lines, in wall time [s]
-    double next_ = 0.0; ///< wall time of the next line [s]
+    double duration_, start_; ///< simulated [s]
+    std::int64_t first_step_;
+    double interval_;          ///< between lines, in wall time [s]
+    double next_;              ///< wall time of the next line [s]
+    double next_logged_ = 0.0; ///< likewise, in a log file beside a terminal
     bool line_open_ = false;
 };
 

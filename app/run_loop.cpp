@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/run_loop.hpp"
 
-#include <fmt/format.h>
+#include "app/signals.hpp"
+#include "app/terminal.hpp"
+#include "app/wall_names.hpp"
+#include "io/checkpoint.hpp"
+#include "io/input_error.hpp"
+#include "io/lost_spheres.hpp"
+
+#include <algorithm>
 
 namespace talus
 {
@@ -10,6 +17,9 @@ namespace
 
 /// A share of a step; when no more than that is missing to the end, only rounding is to blame.
 constexpr double negligible_step = 1e-3;
+
+/// Escapes told one by one on standard error.
+constexpr std::size_t escapes_told = 5;
 
 std::vector<std::string> metrics_columns(const Simulation& simulation)
 {
@@ -30,31 +40,100 @@ std::vector<bool> standing_walls(const Model& model, double time)
 
 } // namespace
 
-RunLoop::RunLoop(
-    Simulation& simulation, const scene::Scene& scene, const std::filesystem::path& folder, Progress& progress)
-    : simulation_(simulation), folder_(folder), progress_(progress), frames_(folder),
-      metrics_(folder / "metrics.csv", metrics_columns(simulation)), metrics_schedule_(scene.time.metrics_interval),
-      particle_schedule_(scene.time.frame_interval), contact_schedule_(scene.output.contact_interval)
+RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity)
+    : RunLoop(opened, folder, verbosity, nullptr)
 {
 }
 
-std::vector<Incident> RunLoop::run()
+RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive& checkpoint)
+    : RunLoop(opened, folder, verbosity, &checkpoint)
 {
-    const double end = simulation_.duration - negligible_step * simulation_.model.time_step;
+}
+
+RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive* checkpoint)
+    : simulation_(opened.simulation), folder_(folder), origin_(origin_of(opened.name, opened.scene)),
+      remove_escaped_(opened.scene.world.on_escape == "remove"), wall_interval_(opened.scene.checkpoint.wall_interval),
+      verbosity_(verbosity), metrics_schedule_(opened.scene.time.metrics_interval),
+      particle_schedule_(opened.scene.time.frame_interval), contact_schedule_(opened.scene.output.contact_interval),
+      checkpoint_schedule_(opened.scene.checkpoint.interval), frames_(folder), watch_(opened.simulation.model),
+      progress_(verbosity, opened.simulation)
+{
+    if (checkpoint)
+        go_on(*checkpoint);
+    else
+        begin();
+}
+
+void RunLoop::begin()
+{
+    metrics_.emplace(folder_ / "metrics.csv", metrics_columns(simulation_));
     write_walls();
     particle_schedule_.due(simulation_.state.time);
     write_particles();
+    checkpoint_schedule_.due(simulation_.state.time);
+}
 
+void RunLoop::go_on(Archive& checkpoint)
+{
+    std::uint64_t metrics_size = 0;
+    persist(checkpoint, metrics_size);
+    if (!checkpoint.at_end()) throw ArchiveError("the saved state is longer than what this scene needs");
+    const double time = simulation_.state.time;
+    if (is_over())
+        throw InputError(fmt::format("{}: the run is at t = {:.6g} s already, and cannot end at {:.6g} s",
+            folder_.string(), time, simulation_.duration));
+    metrics_.emplace(folder_ / "metrics.csv", metrics_columns(simulation_), metrics_size);
+    progress_ = Progress(verbosity_, simulation_);
+    frames_.cut_back();
+    write_lost(folder_, simulation_.escaped);
+    standing_ = standing_walls(simulation_.model, time);
+    for (Schedule* schedule : {&particle_schedule_, &checkpoint_schedule_}) schedule->due(time);
+    if (simulation_.state.steps == 0) return; // the first contacts and metrics are those of the first step
+    for (Schedule* schedule : {&metrics_schedule_, &contact_schedule_}) schedule->due(time);
+}
+
+RunEnd RunLoop::run()
+{
+    RunEnd end;
     StepReport report;
-    while (simulation_.state.time < end && report.incidents.empty()) {
+    while (!is_over() && !stops_the_run(report) && end.signal == 0) {
+        take_out_escaped(report);
+        end.signal = stop_signal();
+        if (end.signal != 0 || next_step_is_last() || checkpoint_is_due()) write_checkpoint();
+        if (end.signal != 0) break;
         report = make_step();
         write_what_is_due(report);
-        progress_.update(simulation_, report, clock_.wall());
+        tell(report);
     }
-    write_the_rest(report);
+    if (end.signal == 0) write_the_rest(report);
+    if (stops_the_run(report)) end.incidents = report.incidents;
     progress_.finish();
     clock_.begin(RunPhase::output); // so that the phases add up to the whole
-    return report.incidents;
+    return end;
+}
+
+bool RunLoop::is_over() const
+{
+    return simulation_.state.time >= simulation_.duration - negligible_step * simulation_.model.time_step;
+}
+
+bool RunLoop::next_step_is_last() const
+{
+    const double h = simulation_.model.time_step;
+    return static_cast<double>(simulation_.state.steps + 1) * h >= simulation_.duration - negligible_step * h;
+}
+
+bool RunLoop::stops_the_run(const StepReport& report) const
+{
+    const auto may_be_removed = [](const Incident& incident) { return incident.kind == Incident::Kind::escaped; };
+    return !report.incidents.empty() && !(remove_escaped_ && std::ranges::all_of(report.incidents, may_be_removed));
+}
+
+void RunLoop::take_out_escaped(const StepReport& report)
+{
+    if (report.incidents.empty()) return;
+    remove_escaped(simulation_.escaped, simulation_.state, simulation_.contacts, simulation_.model, report.incidents);
+    write_lost(folder_, simulation_.escaped);
 }
 
 StepReport RunLoop::make_step()
@@ -63,14 +142,67 @@ StepReport RunLoop::make_step()
     StepReport report = step(simulation_, [this](Phase phase) { clock_.begin(phase); });
     clock_.begin(RunPhase::output);
     statistics_.add(report, simulation_);
-    if (report.incidents.empty())
+    if (!stops_the_run(report))
         for (const auto& sensor : simulation_.sensors) sensor->watch(snapshot(simulation_, report));
     return report;
 }
 
+void RunLoop::tell(const StepReport& report)
+{
+    if (const std::string warning = watch_.warning_after(report); !warning.empty()) {
+        progress_.finish();
+        if (verbosity_ != Verbosity::quiet) warn("t = {:.6g} s: {}\n", simulation_.state.time, warning);
+    }
+    if (!stops_the_run(report)) tell_escaped(report);
+    progress_.update(simulation_, report, clock_.wall());
+}
+
+void RunLoop::tell_escaped(const StepReport& report)
+{
+    for (std::size_t k = 0; k < report.incidents.size(); ++k) {
+        const std::size_t told = simulation_.escaped.size() + k;
+        if (told > escapes_told) return;
+        progress_.finish();
+        if (told == escapes_told) return warn("further escapes are told by the ledger and lost.vtp only\n");
+        warn("t = {:.6g} s: {}; it is taken out\n", simulation_.state.time,
+            describe(report.incidents[k], wall_names(simulation_.model)));
+    }
+}
+
+bool RunLoop::checkpoint_is_due()
+{
+    // each is asked, so that one does not come again for what the other has brought
+    const bool by_signal = checkpoint_requested();
+    const bool by_schedule = simulation_.state.steps > 0 && checkpoint_schedule_.due(simulation_.state.time);
+    const bool by_wall = clock_.wall() - checkpoint_wall_ >= wall_interval_;
+    return by_signal || by_schedule || by_wall;
+}
+
+void RunLoop::write_checkpoint()
+{
+    clock_.begin(RunPhase::output);
+    metrics_->sync();
+    std::uint64_t metrics_size = metrics_->size();
+    Archive archive;
+    archive(origin_);
+    persist(archive, metrics_size);
+    talus::write_checkpoint(folder_, TALUS_VERSION, archive.bytes());
+    checkpoint_wall_ = clock_.wall();
+    if (verbosity_ != Verbosity::verbose) return;
+    progress_.finish();
+    warn("checkpoint at t = {:.6g} s: {:.1f} MB\n", simulation_.state.time,
+        1e-6 * static_cast<double>(archive.bytes().size()));
+}
+
+/// The clock comes last: of the state it is all that differs from run to run.
+void RunLoop::persist(Archive& archive, std::uint64_t& metrics_size)
+{
+    archive(simulation_, frames_, metrics_size, statistics_, clock_);
+}
+
 void RunLoop::write_what_is_due(const StepReport& report)
 {
-    if (!report.incidents.empty()) return; // the end of the run writes it all, but asks no sensor about a broken state
+    if (stops_the_run(report)) return; // the end of the run writes it all, but asks no sensor about a broken state
     const double time = simulation_.state.time;
     if (standing_walls(simulation_.model, time) != standing_) write_walls();
     if (metrics_schedule_.due(time)) {
@@ -93,9 +225,9 @@ void RunLoop::write_the_rest(const StepReport& report)
         write_particles();
     }
     if (steps == 0) return; // contacts and metrics speak of a step
-    if (last_contacts_ != steps && report.incidents.empty()) write_contacts();
+    if (last_contacts_ != steps && !stops_the_run(report)) write_contacts();
     if (last_metrics_ != steps) {
-        if (report.incidents.empty()) sample_sensors(report);
+        if (!stops_the_run(report)) sample_sensors(report);
         write_metrics(report);
     }
     write_tables();
@@ -118,7 +250,7 @@ void RunLoop::write_metrics(const StepReport& report)
         report.kinetic_energy, report.potential_energy, report.contact_energy};
     for (const auto& sensor : simulation_.sensors)
         for (const Measurement& m : sensor->latest()) row.push_back(m.value);
-    metrics_.add_row(row);
+    metrics_->add_row(row);
     last_metrics_ = state.steps;
 }
 

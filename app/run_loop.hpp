@@ -1,43 +1,75 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/open_scene.hpp"
 #include "app/phase_clock.hpp"
 #include "app/progress.hpp"
+#include "app/run_origin.hpp"
 #include "app/run_statistics.hpp"
 #include "app/schedule.hpp"
+#include "app/step_watch.hpp"
 #include "io/frames.hpp"
 #include "io/run_files.hpp"
 #include "scenarios/scene.hpp"
 #include "scenarios/simulation.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace talus
 {
 
+/// How a run ended: at its time, by an incident, or by a signal.
+struct RunEnd {
+    std::vector<Incident> incidents; ///< none where all went well
+    int signal = 0;                  ///< that stopped it before its end, after a checkpoint; 0: none
+};
+
 /// Steps a simulation to its end and writes what its scene asks for on the way.
 ///
 /// Frames and rows of metrics.csv are written at the first step at or after their due time. The first frames show the
-/// start and the last ones the end, be it the scene's or the step of an incident.
+/// start and the last ones the end, be it the scene's or the step of an incident. The last checkpoint is that before
+/// the last step: from there a run can be closed anew or go on, without the frames that are there only because it
+/// ended.
 class RunLoop
 {
 public:
+    /// A run from its beginning.
     /// @param folder the output folder, which exists
-    RunLoop(Simulation& simulation, const scene::Scene& scene, const std::filesystem::path& folder, Progress& progress);
-
-    /// Runs to the end, or to the first step with incidents.
-    /// @returns the incidents: none where all went well
     /// @throws OutputError
-    std::vector<Incident> run();
+    RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity);
+
+    /// A run from its checkpoint, which is put back into the simulation; what was written after it is taken away.
+    /// @param checkpoint what a RunLoop stored
+    /// @throws ArchiveError, InputError before anything is changed in the folder; OutputError
+    RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive& checkpoint);
+
+    /// Runs to the end, to the first step with incidents that stop it, or until a signal asks it to stop.
+    /// @throws OutputError
+    RunEnd run();
 
     const RunStatistics& statistics() const { return statistics_; }
     const PhaseClock& clock() const { return clock_; }
 
 private:
+    RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive* checkpoint);
+    void begin();
+    void go_on(Archive& checkpoint);
+
+    bool is_over() const;
+    bool next_step_is_last() const;
+    bool stops_the_run(const StepReport& report) const;
+    void take_out_escaped(const StepReport& report);
     StepReport make_step();
     void write_what_is_due(const StepReport& report);
     void write_the_rest(const StepReport& report);
+    void tell(const StepReport& report);
+    void tell_escaped(const StepReport& report);
+
+    bool checkpoint_is_due();
+    void write_checkpoint();
+    void persist(Archive& archive, std::uint64_t& metrics_size);
 
     void sample_sensors(const StepReport& report);
     void write_metrics(const StepReport& report);
@@ -48,14 +80,20 @@ private:
 
     Simulation& simulation_;
     std::filesystem::path folder_;
-    Progress& progress_;
-    FrameWriter frames_;
-    MetricsFile metrics_;
-    Schedule metrics_schedule_, particle_schedule_, contact_schedule_;
+    RunOrigin origin_;
+    bool remove_escaped_;
+    double wall_interval_; ///< between checkpoints [s]
+    Verbosity verbosity_;
+    Schedule metrics_schedule_, particle_schedule_, contact_schedule_, checkpoint_schedule_;
+    double checkpoint_wall_ = 0.0;                                              ///< when the last was written [s]
     std::int64_t last_metrics_ = -1, last_particles_ = -1, last_contacts_ = -1; ///< steps after which they were written
     std::vector<bool> standing_;                                                ///< walls in the last wall frame
+    FrameWriter frames_;
+    std::optional<MetricsFile> metrics_; ///< there as soon as the loop is made
+    StepWatch watch_;
     RunStatistics statistics_;
     PhaseClock clock_;
+    Progress progress_;
 };
 
 } // namespace talus

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/run_report.hpp"
 
-#include <fmt/format.h>
+#include "app/terminal.hpp"
+#include "app/wall_names.hpp"
+
 #include <omp.h>
 
 #include <algorithm>
@@ -17,9 +19,10 @@ ParticleLedger particle_ledger(const Simulation& simulation, const std::vector<I
     ParticleLedger ledger;
     ledger.inserted = simulation.state.next_id;
     ledger.left = simulation.outflow.count;
-    ledger.escaped = std::count_if(incidents.begin(), incidents.end(),
+    const auto still_listed = std::count_if(incidents.begin(), incidents.end(),
         [](const Incident& incident) { return incident.kind == Incident::Kind::escaped; });
-    ledger.inside = static_cast<std::int64_t>(simulation.state.count()) - ledger.escaped;
+    ledger.escaped = static_cast<std::int64_t>(simulation.escaped.size()) + still_listed;
+    ledger.inside = static_cast<std::int64_t>(simulation.state.count()) - still_listed;
     return ledger;
 }
 
@@ -65,8 +68,7 @@ void print_sensors(const RunSummary& summary)
 {
     for (const SensorSummary& sensor : summary.sensors)
         for (const Measurement& m : sensor.results)
-            fmt::print(
-                "  {:<28} {:.5g} ± {:.2g} {}\n", fmt::format("{} {}", sensor.name, m.name), m.value, m.spread, m.unit);
+            say("  {:<28} {:.5g} ± {:.2g} {}\n", fmt::format("{} {}", sensor.name, m.name), m.value, m.spread, m.unit);
 }
 
 /// "20 of 30 spheres", "0.2 of 0.3 kg".
@@ -79,54 +81,51 @@ std::string poured_of_asked(const PourSummary& pour)
 void print_ledger(const RunSummary& summary)
 {
     const ParticleLedger& ledger = summary.ledger;
-    fmt::print("  {:<28} {} inserted = {} inside + {} left through an outlet + {} escaped ({})\n", "spheres",
-        ledger.inserted, ledger.inside, ledger.left, ledger.escaped,
-        ledger.closes() ? "closes" : "DOES NOT CLOSE: spheres were lost");
+    say("  {:<28} {} inserted = {} inside + {} left through an outlet + {} escaped ({})\n", "spheres", ledger.inserted,
+        ledger.inside, ledger.left, ledger.escaped, ledger.closes() ? "closes" : "DOES NOT CLOSE: spheres were lost");
     for (const PourSummary& pour : summary.pours)
         if (!pour.shortfall.empty())
-            fmt::print(
-                "  {:<28} {} came in: {}\n", fmt::format("pour {}", pour.name), poured_of_asked(pour), pour.shortfall);
+            say("  {:<28} {} came in: {}\n", fmt::format("pour {}", pour.name), poured_of_asked(pour), pour.shortfall);
 }
 
 void print_error(const RunSummary& summary)
 {
     const ErrorSummary& e = summary.error;
     const double steps = static_cast<double>(std::max<std::int64_t>(1, summary.steps));
-    fmt::print("  {:<28} mean {:.2g}, 95 % of the steps below {:.2g}, worst {:.2g} (tolerance {:.2g})\n",
-        "residual reached", e.mean_residual, e.residual_95, e.worst_residual, e.tolerance);
-    fmt::print("  {:<28} {} of {} ({:.2g} %)\n", "steps at the cap of sweeps", e.steps_at_cap, summary.steps,
+    say("  {:<28} mean {:.2g}, 95 % of the steps below {:.2g}, worst {:.2g} (tolerance {:.2g})\n", "residual reached",
+        e.mean_residual, e.residual_95, e.worst_residual, e.tolerance);
+    say("  {:<28} {} of {} ({:.2g} %)\n", "steps at the cap of sweeps", e.steps_at_cap, summary.steps,
         100.0 * static_cast<double>(e.steps_at_cap) / steps);
-    fmt::print("  {:<28} mean {:.2g} % d, worst {:.2g} % d at {:.4g} s\n", "overlap", 100.0 * e.mean_overlap,
+    say("  {:<28} mean {:.2g} % d, worst {:.2g} % d at {:.4g} s\n", "overlap", 100.0 * e.mean_overlap,
         100.0 * e.worst_overlap, e.worst_overlap_time);
-    fmt::print("  {:<28} {}\n", "moves over 0.1 d in a step", e.long_moves);
-    fmt::print("  {:<28} {:.2g} N s\n", "worst cone violation", e.cone_violation);
-    fmt::print(
-        "  {:<28} {:.4g} J lost, {:.2g} J gained that nothing put in\n", "energy", e.energy_lost, e.energy_gained);
+    say("  {:<28} {}\n", "moves over 0.1 d in a step", e.long_moves);
+    say("  {:<28} {:.2g} N s\n", "worst cone violation", e.cone_violation);
+    say("  {:<28} {:.4g} J lost, {:.2g} J gained that nothing put in\n", "energy", e.energy_lost, e.energy_gained);
 }
 
 void print_timing(const RunSummary& summary)
 {
     const TimingSummary& timing = summary.timing;
     for (const PhaseTime& phase : timing.phases)
-        fmt::print("  {:<28} {:>9.2f} s wall {:>9.2f} s CPU {:>6.1f} %\n", phase.name, phase.wall, phase.cpu,
+        say("  {:<28} {:>9.2f} s wall {:>9.2f} s CPU {:>6.1f} %\n", phase.name, phase.wall, phase.cpu,
             100.0 * phase.cpu / timing.cpu);
-    fmt::print(
-        "  {:<28} {:>9.2f} s wall {:>9.2f} s CPU, threads: {}\n", "in all", timing.wall, timing.cpu, summary.threads);
+    say("  {:<28} {:>9.2f} s wall {:>9.2f} s CPU, threads: {}\n", "in all", timing.wall, timing.cpu, summary.threads);
     if (summary.steps == 0) return;
-    fmt::print("  {:<28} {:.3g} s CPU for a simulated second, {:.0f} steps/s, {:.3g} million contact updates/s of "
-               "sweep CPU\n",
+    say("  {:<28} {:.3g} s CPU for a simulated second, {:.0f} steps/s, {:.3g} million contact updates/s of "
+        "sweep CPU\n",
         "rate", timing.cpu / summary.simulated_time, static_cast<double>(summary.steps) / timing.wall,
         1e-6 * timing.contact_update_rate);
 }
 
 } // namespace
 
-RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const std::vector<Incident>& incidents)
+RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const RunEnd& end)
 {
     const Simulation& simulation = opened.simulation;
     RunSummary summary;
-    summary.incidents = incidents;
-    for (const Wall& wall : simulation.model.walls) summary.wall_names.push_back(wall.name);
+    summary.incidents = end.incidents;
+    summary.interrupted = end.signal != 0;
+    summary.wall_names = wall_names(simulation.model);
     summary.version = TALUS_VERSION;
     summary.scene = opened.name;
     summary.title = opened.scene.title;
@@ -135,7 +134,7 @@ RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const std::
     summary.simulated_time = simulation.state.time;
     summary.time_step = simulation.model.time_step;
     summary.steps = simulation.state.steps;
-    summary.ledger = particle_ledger(simulation, incidents);
+    summary.ledger = particle_ledger(simulation, end.incidents);
     summary.pours = summarise_pours(simulation);
     for (const auto& sensor : simulation.sensors) summary.sensors.push_back({sensor->name, sensor->results()});
     summary.error = loop.statistics().error(simulation.model);
@@ -145,16 +144,19 @@ RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const std::
 
 void print_results(const RunSummary& summary)
 {
-    fmt::print("\n{} {} at t = {:.6g} s after {} steps of {:.4g} s\n", summary.scene,
-        summary.incidents.empty() ? "done" : "FAILED", summary.simulated_time, summary.steps, summary.time_step);
-    fmt::print("results\n");
+    say("\n{} {} at t = {:.6g} s after {} steps of {:.4g} s\n", summary.scene,
+        !summary.incidents.empty() ? "FAILED"
+        : summary.interrupted      ? "interrupted"
+                                   : "done",
+        summary.simulated_time, summary.steps, summary.time_step);
+    say("results\n");
     print_sensors(summary);
     print_ledger(summary);
-    fmt::print("error of the run\n");
+    say("error of the run\n");
     print_error(summary);
-    fmt::print("time\n");
+    say("time\n");
     print_timing(summary);
-    std::fflush(stdout);
+    std::fflush(stdout); // before what follows on standard error
 }
 
 } // namespace talus

@@ -5,13 +5,11 @@
 #include "app/run_loop.hpp"
 #include "io/summary.hpp"
 
-#include <vector>
-
 namespace talus
 {
 
 /// Puts together what is left to say of a run that is over.
-RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const std::vector<Incident>& incidents);
+RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const RunEnd& end);
 
 /// Prints the summary as a table: sensors, particle ledger, error, time per phase.
 void print_results(const RunSummary& summary);

@@ -3,15 +3,14 @@
 
 #include "app/check_scene.hpp"
 #include "app/open_scene.hpp"
+#include "app/relaxation.hpp"
+#include "app/run_end.hpp"
 #include "app/run_loop.hpp"
-#include "app/run_report.hpp"
+#include "app/signals.hpp"
+#include "app/terminal.hpp"
 #include "io/scene_file.hpp"
-#include "io/summary.hpp"
 
-#include <fmt/format.h>
 #include <omp.h>
-
-#include <algorithm>
 
 namespace talus
 {
@@ -20,31 +19,31 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// Incidents told on standard error; all of them are in the summary.
-constexpr std::size_t incidents_told = 5;
+/// From which overlap on a start is likely to burst [d].
+constexpr double notable_overlap = 0.01;
 
-void print_start(const OpenedScene& opened, Verbosity verbosity, const fs::path& folder)
+void print_start(const OpenedScene& opened, const OverlapCheck& overlaps, Verbosity verbosity, const fs::path& folder)
 {
-    if (verbosity == Verbosity::quiet) return;
-    const Simulation& simulation = opened.simulation;
     if (verbosity == Verbosity::verbose) {
-        print_scene(opened);
+        print_scene(opened, overlaps);
     } else {
-        fmt::print("{}: {}\n", opened.name, opened.scene.title);
-        print_explanations(simulation);
+        say("{}: {}\n", opened.name, opened.scene.title);
+        print_explanations(opened.simulation, overlaps);
     }
-    fmt::print("threads: {}\noutput: {}\n", omp_get_max_threads(), folder.string());
-    std::fflush(stdout); // before progress appears on standard error
+    say("threads: {}\noutput: {}\n", omp_get_max_threads(), folder.string());
 }
 
-void print_incidents(const RunSummary& summary)
+void print_relaxation(const Relaxation& relaxation, const OverlapCheck& before, double d)
 {
-    const std::size_t told = std::min(summary.incidents.size(), incidents_told);
-    for (std::size_t k = 0; k < told; ++k)
-        fmt::print(
-            stderr, "t = {:.6g} s: {}\n", summary.simulated_time, describe(summary.incidents[k], summary.wall_names));
-    if (summary.incidents.size() > told)
-        fmt::print(stderr, "and {} more, see summary.json\n", summary.incidents.size() - told);
+    say("relaxed in {} steps: {} overlaps, the worst {:.2g} % d, became {}, the worst {:.2g} % d\n", relaxation.steps,
+        before.count, 100.0 * before.worst / d, relaxation.left.count, 100.0 * relaxation.left.worst / d);
+}
+
+void advise_to_relax(const OverlapCheck& overlaps, double d)
+{
+    if (overlaps.worst > notable_overlap * d)
+        warn("{} contacts overlap at the start, the worst by {:.2g} % d; --relax moves the spheres apart first\n",
+            overlaps.count, 100.0 * overlaps.worst / d);
 }
 
 } // namespace
@@ -55,17 +54,21 @@ ExitCode run_scene(const CommandLine& line)
     if (line.threads > 0) omp_set_num_threads(line.threads);
     const fs::path folder = line.out.empty() ? fs::path("out") / opened.name : line.out;
     make_run_folder(folder, resolved_scene(opened.scene), line.force);
-    print_start(opened, line.verbosity, folder);
+    catch_signals();
 
-    Progress progress(line.verbosity, opened.simulation.duration);
-    RunLoop loop(opened.simulation, opened.scene, folder, progress);
-    const std::vector<Incident> incidents = loop.run();
+    const OverlapCheck overlaps = check_overlaps(opened.simulation);
+    const double d = opened.simulation.model.mean_diameter;
+    const bool speaks = line.verbosity != Verbosity::quiet;
+    if (speaks) print_start(opened, overlaps, line.verbosity, folder);
+    if (line.relax) {
+        const Relaxation relaxation = relax_overlaps(opened.simulation, overlaps);
+        if (speaks) print_relaxation(relaxation, overlaps, d);
+    } else if (speaks) {
+        advise_to_relax(overlaps, d);
+    }
 
-    const RunSummary summary = summarise(opened, loop, incidents);
-    write_summary(folder / "summary.json", summary);
-    if (line.verbosity != Verbosity::quiet) print_results(summary);
-    print_incidents(summary);
-    return incidents.empty() ? ExitCode::done : ExitCode::physics;
+    RunLoop loop(opened, folder, line.verbosity);
+    return run_to_end(opened, loop, folder, line.verbosity);
 }
 
 } // namespace talus

@@ -8,7 +8,7 @@ namespace talus
 {
 
 /// Runs the scene that the command line names, from its file to summary.json.
-/// @returns done, or physics where an incident ended the run
+/// @returns done, physics where an incident ended the run, interrupted or terminated where a signal did
 /// @throws UsageError, InputError, OutputError
 ExitCode run_scene(const CommandLine& line);
 

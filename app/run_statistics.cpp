@@ -2,14 +2,13 @@
 #include "app/run_statistics.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace talus
 {
 
 void RunStatistics::add(const StepReport& report, const Simulation& simulation)
 {
-    residuals_.push_back(report.residual);
+    residuals_.add(report.residual);
     if (!report.converged) ++steps_at_cap_;
 
     overlap_sum_ += report.mean_overlap * static_cast<double>(report.overlapping);
@@ -22,7 +21,8 @@ void RunStatistics::add(const StepReport& report, const Simulation& simulation)
     cone_violation_ = std::max(cone_violation_, report.cone_violation);
     contact_updates_ += static_cast<double>(report.contacts) * report.sweeps;
 
-    const std::int64_t inserted = simulation.state.next_id, left = simulation.outflow.count;
+    const std::int64_t inserted = simulation.state.next_id;
+    const std::int64_t left = simulation.outflow.count + static_cast<std::int64_t>(simulation.escaped.size());
     energy_.add(report, inserted == inserted_ && left == left_);
     inserted_ = inserted;
     left_ = left;
@@ -40,13 +40,9 @@ ErrorSummary RunStatistics::error(const Model& model) const
     error.cone_violation = cone_violation_;
     error.energy_lost = energy_.lost();
     error.energy_gained = energy_.gained();
-    if (residuals_.empty()) return error;
-
-    std::vector<double> sorted = residuals_;
-    std::sort(sorted.begin(), sorted.end());
-    error.mean_residual = std::reduce(sorted.begin(), sorted.end()) / static_cast<double>(sorted.size());
-    error.residual_95 = sorted[static_cast<std::size_t>(0.95 * static_cast<double>(sorted.size() - 1))];
-    error.worst_residual = sorted.back();
+    error.mean_residual = residuals_.mean();
+    error.residual_95 = residuals_.percentile(0.95);
+    error.worst_residual = residuals_.worst();
     return error;
 }
 

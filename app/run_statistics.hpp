@@ -2,10 +2,9 @@
 #pragma once
 
 #include "app/energy_balance.hpp"
+#include "app/residual_histogram.hpp"
 #include "io/summary.hpp"
 #include "scenarios/simulation.hpp"
-
-#include <vector>
 
 namespace talus
 {
@@ -21,8 +20,14 @@ public:
 
     double contact_updates() const { return contact_updates_; } ///< contacts × sweeps
 
+    void persist(Archive& archive)
+    {
+        archive(residuals_, steps_at_cap_, overlap_sum_, overlap_count_, worst_overlap_, worst_overlap_time_,
+            long_moves_, cone_violation_, contact_updates_, energy_, inserted_, left_);
+    }
+
 private:
-    std::vector<double> residuals_;
+    ResidualHistogram residuals_;
     std::int64_t steps_at_cap_ = 0;
     double overlap_sum_ = 0.0, overlap_count_ = 0.0; ///< over all overlapping contacts of all steps
     double worst_overlap_ = 0.0, worst_overlap_time_ = 0.0;
@@ -30,7 +35,7 @@ private:
     double cone_violation_ = 0.0;
     double contact_updates_ = 0.0;
     EnergyBalance energy_;
-    std::int64_t inserted_ = 0, left_ = 0; ///< up to the last step
+    std::int64_t inserted_ = 0, left_ = 0; ///< up to the last step, also by escape
 };
 
 } // namespace talus

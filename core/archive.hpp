@@ -4,7 +4,6 @@
 #include "core/vector.hpp"
 
 #include <cstdint>
-#include <cstring>
 #include <deque>
 #include <optional>
 #include <random>
@@ -42,6 +41,9 @@ public:
     bool reading() const { return reading_; }
     const std::string& bytes() const { return bytes_; }
 
+    /// How many bytes have been put back.
+    std::size_t position() const { return at_; }
+
     /// Whether everything has been put back.
     bool at_end() const { return at_ == bytes_.size(); }
 
@@ -53,22 +55,8 @@ private:
     std::size_t at_ = 0;
     bool reading_ = false;
 
-    void raw(void* data, std::size_t size)
-    {
-        if (size == 0) return;
-        if (!reading_) {
-            bytes_.append(static_cast<const char*>(data), size);
-            return;
-        }
-        require(size);
-        std::memcpy(data, bytes_.data() + at_, size);
-        at_ += size;
-    }
-
-    void require(std::size_t size) const
-    {
-        if (size > bytes_.size() - at_) throw ArchiveError("the saved state ends too early");
-    }
+    void raw(void* data, std::size_t size);
+    void require(std::size_t size) const; ///< @throws ArchiveError where fewer bytes are left
 
     template <class Field> void keep(Field& field)
     {

@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/outlet.hpp"
 
-#include "core/candidate_search.hpp"
+#include "core/removal.hpp"
 
 namespace talus
 {
 
 void empty_outlets(Outflow& outflow, State& state, ContactNetwork& contacts, const Model& model)
 {
-    std::vector<std::int32_t> new_index(state.count(), -1);
-    std::int32_t kept = 0;
     for (std::size_t i = 0; i < state.count(); ++i) {
-        if (!state.leaving[i]) {
-            new_index[i] = kept++;
-        } else {
-            ++outflow.count;
-            outflow.mass += state.mass(i);
-        }
+        if (!state.leaving[i]) continue;
+        ++outflow.count;
+        outflow.mass += state.mass(i);
     }
-    if (static_cast<std::size_t>(kept) == state.count()) return;
-    renumber_spheres(state, new_index, static_cast<std::size_t>(kept));
-    renumber_candidates(contacts, state, model, new_index);
+    remove_spheres(state, contacts, model, state.leaving);
 }
 
 } // namespace talus

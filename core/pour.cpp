@@ -47,9 +47,8 @@ bool is_due_after(const Pour& source, double time, double count, double mass)
 }
 
 /// A free place for the sphere that waits, if one is found.
-std::optional<Vec3> find_place(
-    Pour& source, const State& state, const std::vector<std::size_t>& near, const std::vector<PlacedWall>& walls,
-    const Periodicity& periodicity)
+std::optional<Vec3> find_place(Pour& source, const State& state, const std::vector<std::size_t>& near,
+    const std::vector<PlacedWall>& walls, const Periodicity& periodicity)
 {
     const double radius = 0.5 * source.pending.diameter;
     for (int k = 0; k < tries; ++k) {

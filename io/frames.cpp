@@ -75,6 +75,12 @@ std::vector<ContactLine> loaded_contacts(const Simulation& simulation)
     return lines;
 }
 
+/// The name of a frame in the run's folder.
+std::string frame_file(const std::string& series, std::size_t index)
+{
+    return fmt::format("frames/{}_{:06}.vtp", series, index);
+}
+
 void drop_weaker_than(double threshold, std::vector<ContactLine>& lines)
 {
     const auto add = [](double sum, const ContactLine& line) { return sum + line.force.norm(); };
@@ -133,12 +139,7 @@ void FrameWriter::write_particles(const Simulation& simulation)
     const std::size_t count = shown.size();
     vtkNew<vtkPolyData> geometry;
     set_points(*geometry, count, [&](std::size_t k) { return state.position[shown[k]]; });
-
-    // One cell of all points: without any cell ParaView shows nothing, and one for each would double the file.
-    vtkNew<vtkCellArray> cells;
-    if (count > 0) cells->InsertNextCell(static_cast<int>(count));
-    for (std::size_t k = 0; k < count; ++k) cells->InsertCellPoint(static_cast<vtkIdType>(k));
-    geometry->SetVerts(cells);
+    add_point_cell(*geometry, count);
     add_particle_arrays(*geometry->GetPointData(), simulation, shown);
     add_frame(particles_, state.time, *geometry);
 }
@@ -184,15 +185,37 @@ void FrameWriter::write_walls(const Model& model, double time)
 
 void FrameWriter::add_frame(Series& series, double time, vtkPolyData& geometry)
 {
-    const std::string file = fmt::format("frames/{}_{:06}.vtp", series.name, series.frames.size());
-    write_atomically(folder_ / file, vtp_bytes(geometry, time));
-    series.frames.emplace_back(time, file);
+    write_atomically(folder_ / frame_file(series.name, series.times.size()), vtp_bytes(geometry, time));
+    series.times.push_back(time);
+    write_list(series);
+}
 
+void FrameWriter::write_list(const Series& series) const
+{
     std::string list = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
-    for (const auto& [frame_time, frame_file] : series.frames)
-        list += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame_time, frame_file);
+    for (std::size_t k = 0; k < series.times.size(); ++k)
+        list += fmt::format(
+            "    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", series.times[k], frame_file(series.name, k));
     list += "  </Collection>\n</VTKFile>\n";
     write_atomically(folder_ / (series.name + ".pvd"), list);
+}
+
+void FrameWriter::cut_back() const
+{
+    for (const Series* series : {&particles_, &contacts_, &walls_}) cut_back(*series);
+}
+
+void FrameWriter::cut_back(const Series& series) const
+{
+    // the list first: at no time does it name a file that is not there
+    std::error_code error;
+    if (series.times.empty())
+        std::filesystem::remove(folder_ / (series.name + ".pvd"), error);
+    else
+        write_list(series);
+    for (std::size_t k = series.times.size(); std::filesystem::remove(folder_ / frame_file(series.name, k), error);)
+        ++k;
+    if (error) throw OutputError(fmt::format("{}: cannot be removed: {}", folder_.string(), error.message()));
 }
 
 } // namespace talus

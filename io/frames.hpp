@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 class vtkPolyData;
@@ -37,15 +36,24 @@ public:
     /// @throws OutputError
     void write_walls(const Model& model, double time);
 
+    /// Stores or puts back the times of the frames written so far.
+    void persist(Archive& archive) { archive(particles_.times, contacts_.times, walls_.times); }
+
+    /// Removes the frames that came after those known here, and lists these anew: for a run that is resumed.
+    /// @throws OutputError
+    void cut_back() const;
+
 private:
     struct Series {
         std::string name;
-        std::vector<std::pair<double, std::string>> frames; ///< time and file
+        std::vector<double> times; ///< of its frames [s]
     };
     std::filesystem::path folder_;
     Series particles_{"particles", {}}, contacts_{"contacts", {}}, walls_{"walls", {}};
 
     void add_frame(Series& series, double time, vtkPolyData& geometry);
+    void write_list(const Series& series) const;
+    void cut_back(const Series& series) const;
 };
 
 } // namespace talus

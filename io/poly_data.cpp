@@ -3,6 +3,7 @@
 
 #include "io/input_error.hpp"
 
+#include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
@@ -31,6 +32,14 @@ void add_time_and_units(vtkFieldData& data, double time)
 }
 
 } // namespace
+
+void add_point_cell(vtkPolyData& geometry, std::size_t count)
+{
+    vtkNew<vtkCellArray> cells;
+    if (count > 0) cells->InsertNextCell(static_cast<int>(count));
+    for (std::size_t k = 0; k < count; ++k) cells->InsertCellPoint(static_cast<vtkIdType>(k));
+    geometry.SetVerts(cells);
+}
 
 std::string vtp_bytes(vtkPolyData& geometry, double time)
 {

@@ -61,6 +61,10 @@ void set_points(vtkPolyData& geometry, std::size_t count, auto&& place)
     geometry.SetPoints(points);
 }
 
+/// Makes one cell of all `count` points: without any cell ParaView shows nothing, and one for each would double the
+/// file.
+void add_point_cell(vtkPolyData& geometry, std::size_t count);
+
 /// The bytes of a .vtp file: appended raw, LZ4, with `TimeValue` [s] and `units` in its field data.
 /// @throws OutputError where VTK fails
 std::string vtp_bytes(vtkPolyData& geometry, double time);

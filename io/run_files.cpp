@@ -39,7 +39,7 @@ constexpr const char* profile_prefix = "profile_";
 bool is_output_of_a_run(const std::string& name)
 {
     if (name.starts_with(profile_prefix) && (name.ends_with(".csv") || name.ends_with(".csv.tmp"))) return true;
-    constexpr std::array<std::string_view, 3> files = {"metrics.csv", "summary.json", marker};
+    constexpr std::array<std::string_view, 4> files = {"metrics.csv", "summary.json", "lost.vtp", marker};
     constexpr std::array<std::string_view, 4> series = {"particles", "contacts", "walls", "checkpoint"};
     for (const std::string_view file : files)
         if (name == file || name == fmt::format("{}.tmp", file)) return true;
@@ -63,7 +63,7 @@ void remove_run(const fs::path& folder)
     }
 }
 
-/// Writes all bytes and brings them to the disk; false with errno set where that fails.
+/// Writes all bytes; false with errno set where that fails.
 bool write_all(int descriptor, std::string_view bytes)
 {
     while (!bytes.empty()) {
@@ -72,6 +72,14 @@ bool write_all(int descriptor, std::string_view bytes)
         if (written < 0) return false;
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
+    return true;
+}
+
+/// Writes all parts and brings them to the disk; false with errno set where that fails.
+bool write_all(int descriptor, std::initializer_list<std::string_view> parts)
+{
+    for (const std::string_view part : parts)
+        if (!write_all(descriptor, part)) return false;
     return ::fsync(descriptor) == 0;
 }
 
@@ -92,6 +100,13 @@ std::string csv_field(const std::string& name)
     std::string quoted;
     for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
     return fmt::format("\"{}\"", quoted);
+}
+
+std::string header_line(const std::vector<std::string>& columns)
+{
+    std::vector<std::string> fields;
+    for (const std::string& column : columns) fields.push_back(csv_field(column));
+    return fmt::format("{}", fmt::join(fields, ","));
 }
 
 } // namespace
@@ -116,12 +131,17 @@ void make_run_folder(const fs::path& folder, const std::string& resolved_scene, 
     write_atomically(folder / marker, resolved_scene);
 }
 
-void write_atomically(const fs::path& path, const std::string& text)
+void write_atomically(const fs::path& path, std::string_view text)
+{
+    write_atomically(path, {text});
+}
+
+void write_atomically(const fs::path& path, std::initializer_list<std::string_view> parts)
 {
     const fs::path temporary = path.string() + ".tmp";
     const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (descriptor < 0) refuse_output(path, std::strerror(errno));
-    const int failure = write_all(descriptor, text) ? 0 : errno;
+    const int failure = write_all(descriptor, parts) ? 0 : errno;
     const bool closed = ::close(descriptor) == 0;
     if (failure == 0 && closed && ::rename(temporary.c_str(), path.c_str()) == 0) return;
     const std::string reason = std::strerror(failure != 0 ? failure : errno);
@@ -146,9 +166,23 @@ void write_table(const fs::path& folder, const std::string& name, const Table& t
 MetricsFile::MetricsFile(const fs::path& path, const std::vector<std::string>& columns)
     : path_(path), columns_(columns.size()), stream_(path)
 {
-    std::vector<std::string> fields;
-    for (const std::string& column : columns) fields.push_back(csv_field(column));
-    write_line(fmt::format("{}", fmt::join(fields, ",")));
+    write_line(header_line(columns));
+}
+
+MetricsFile::MetricsFile(const fs::path& path, const std::vector<std::string>& columns, std::uint64_t size)
+    : path_(path), columns_(columns.size()), size_(size)
+{
+    std::error_code error;
+    const std::uintmax_t there = fs::file_size(path, error);
+    if (error) throw InputError(fmt::format("{}: the run cannot go on without it: {}", path.string(), error.message()));
+    std::string header;
+    std::getline(std::ifstream(path), header);
+    if (there < size || header != header_line(columns))
+        throw InputError(fmt::format("{}: the file is not as the run left it", path.string()));
+    fs::resize_file(path, size, error);
+    if (error) refuse_output(path, error.message());
+    stream_.open(path, std::ios::app);
+    if (!stream_) refuse_output(path, std::strerror(errno));
 }
 
 void MetricsFile::add_row(const std::vector<double>& values)
@@ -157,10 +191,21 @@ void MetricsFile::add_row(const std::vector<double>& values)
     write_line(fmt::format("{}", fmt::join(values, ",")));
 }
 
+void MetricsFile::sync()
+{
+    // fsync brings what any descriptor of the file has written
+    const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) refuse_output(path_, std::strerror(errno));
+    const int failure = ::fsync(descriptor) == 0 ? 0 : errno;
+    ::close(descriptor);
+    if (failure != 0) refuse_output(path_, std::strerror(failure));
+}
+
 void MetricsFile::write_line(const std::string& line)
 {
     stream_ << line << '\n' << std::flush;
     if (!stream_) refuse_output(path_, std::strerror(errno));
+    size_ += line.size() + 1;
 }
 
 } // namespace talus

@@ -3,9 +3,12 @@
 
 #include "core/sensor.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace talus
@@ -19,7 +22,10 @@ void make_run_folder(const std::filesystem::path& folder, const std::string& res
 
 /// Writes a whole file at once: to a temporary name, flushed to the disk, then renamed.
 /// @throws OutputError
-void write_atomically(const std::filesystem::path& path, const std::string& text);
+void write_atomically(const std::filesystem::path& path, std::string_view text);
+
+/// The same for a file in parts, one after the other.
+void write_atomically(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
 
 /// A name with its unit, as columns are called: mass_flow_kg_per_s.
 std::string column_name(const std::string& name, const std::string& unit);
@@ -36,13 +42,25 @@ public:
     /// @throws OutputError
     MetricsFile(const std::filesystem::path& path, const std::vector<std::string>& columns);
 
+    /// Goes on with the file of a run that is resumed.
+    /// @param size to which the file is cut back [B]
+    /// @throws InputError where the file is not the one that was left, OutputError
+    MetricsFile(const std::filesystem::path& path, const std::vector<std::string>& columns, std::uint64_t size);
+
     /// @pre one value for each column
     /// @throws OutputError, at full disk too
     void add_row(const std::vector<double>& values);
 
+    /// Brings the rows to the disk, so that a checkpoint may count on them.
+    /// @throws OutputError
+    void sync();
+
+    std::uint64_t size() const { return size_; } ///< of the file [B]
+
 private:
     std::filesystem::path path_;
     std::size_t columns_;
+    std::uint64_t size_ = 0;
     std::ofstream stream_;
 
     void write_line(const std::string& line);

@@ -132,6 +132,16 @@ std::string SceneFile::place_of(const std::string& key) const
     return path.string();
 }
 
+scene::Scene parse_scene(const std::string& text)
+{
+    try {
+        std::map<std::string, std::string> places;
+        return read_tables(toml::parse(text), places);
+    } catch (const toml::parse_error& error) {
+        throw InputError(fmt::format("{}: {}", place_in(error.source()), describe_error(error)));
+    }
+}
+
 SceneFile read_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides)
 {
     toml::table root = parse_file(path);

@@ -30,7 +30,14 @@ struct SceneFile {
 /// @throws InputError
 SceneFile read_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
 
+/// Reads a scene from its text, the one of `resolved_scene`, without the STL files that it names.
+/// @throws InputError
+scene::Scene parse_scene(const std::string& text);
+
 /// The whole scene as TOML, with every key; reading it again gives the same scene.
 std::string resolved_scene(const scene::Scene& scene);
+
+/// The keys in which two scenes differ, as in SceneFile::places; where a list of tables has another length, the list.
+std::vector<std::string> changed_keys(const scene::Scene& before, const scene::Scene& after);
 
 } // namespace talus

@@ -1,91 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/field_kind.hpp"
 #include "io/scene_file.hpp"
+#include "io/toml_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace talus
 {
 
 namespace
 {
-
-/// A number that reads back to the same bits, and as a float.
-std::string toml_text(double number)
-{
-    std::string text = fmt::format("{}", number);
-    if (std::isfinite(number) && text.find_first_of(".e") == std::string::npos) text += ".0";
-    return text;
-}
-
-std::string toml_text(bool truth)
-{
-    return truth ? "true" : "false";
-}
-
-std::string toml_text(std::int64_t number)
-{
-    return fmt::format("{}", number);
-}
-
-std::string toml_text(const std::string& text)
-{
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            quoted += fmt::format("\\{}", c);
-        else if ((c >= 0 && c < ' ') || c == 0x7f)
-            quoted += fmt::format("\\u{:04x}", static_cast<int>(c));
-        else
-            quoted += c;
-    }
-    return quoted + '"';
-}
-
-std::string toml_text(const Vec3& vector)
-{
-    return fmt::format("[{}, {}, {}]", toml_text(vector.x()), toml_text(vector.y()), toml_text(vector.z()));
-}
-
-std::string toml_text(const scene::NumberOrName& value)
-{
-    return value.name.empty() ? toml_text(value.number) : toml_text(value.name);
-}
-
-std::string toml_text(const std::vector<std::string>& list)
-{
-    std::string text;
-    for (const std::string& element : list) text += (text.empty() ? "" : ", ") + toml_text(element);
-    return "[" + text + "]";
-}
-
-std::string toml_text(const std::vector<scene::Waypoint>& table)
-{
-    std::string text;
-    for (const scene::Waypoint& at : table)
-        text += fmt::format("{}[{}, {}, {}, {}]", text.empty() ? "" : ", ", toml_text(at.time), toml_text(at.shift.x()),
-            toml_text(at.shift.y()), toml_text(at.shift.z()));
-    return "[" + text + "]";
-}
-
-template <Table Described> std::string toml_text(const Described& table)
-{
-    std::string text;
-    for_each_own_key(table, [&](std::string_view name, const auto& field, std::string_view) {
-        text += fmt::format("{} {} = {}", text.empty() ? "" : ",", name, toml_text(field));
-    });
-    return "{" + text + " }";
-}
-
-template <Table Described> std::string toml_text(const std::vector<Described>& list)
-{
-    std::string text;
-    for (const Described& element : list) text += (text.empty() ? "" : ", ") + toml_text(element);
-    return "[" + text + "]";
-}
 
 /// A key with its value on a line of its own, and its unit where it has one.
 void write_line(std::string& text, std::string_view name, const auto& field, std::string_view unit)
@@ -125,7 +52,59 @@ void write_key(
         write_table(text, fmt::format("[{}.{}]", name, toml_text(material.name)), material);
 }
 
+/// Every key with its value, by its path. Tables within a table of a list are values of one key.
+using KeyValues = std::vector<std::pair<std::string, std::string>>;
+
+template <Table Described> void list_keys(KeyValues& list, const std::string& path, const Described& table)
+{
+    for_each_own_key(table, [&](std::string_view name, const auto& field, std::string_view) {
+        list.emplace_back(fmt::format("{}.{}", path, name), toml_text(field));
+    });
+}
+
+void list_key(KeyValues& list, std::string_view name, const auto& field)
+{
+    list.emplace_back(name, toml_text(field));
+}
+
+template <Table Described> void list_key(KeyValues& list, std::string_view name, const Described& table)
+{
+    list_keys(list, std::string(name), table);
+}
+
+template <Table Described> void list_key(KeyValues& list, std::string_view name, const std::vector<Described>& tables)
+{
+    list.emplace_back(name, fmt::format("{} tables", tables.size()));
+    for (std::size_t k = 0; k < tables.size(); ++k) list_keys(list, fmt::format("{}[{}]", name, k), tables[k]);
+}
+
+void list_key(KeyValues& list, std::string_view name, const std::vector<scene::MaterialTable>& materials)
+{
+    for (const scene::MaterialTable& material : materials)
+        list_keys(list, fmt::format("{}.{}", name, material.name), material);
+}
+
+KeyValues key_values(const scene::Scene& scene)
+{
+    KeyValues list;
+    for_each_own_key(
+        scene, [&](std::string_view name, const auto& field, std::string_view) { list_key(list, name, field); });
+    return list;
+}
+
 } // namespace
+
+std::vector<std::string> changed_keys(const scene::Scene& before, const scene::Scene& after)
+{
+    const KeyValues old_values = key_values(before), new_values = key_values(after);
+    std::vector<std::string> changed;
+    for (const auto& [key, value] : new_values)
+        if (std::ranges::find(old_values, std::pair(key, value)) == old_values.end()) changed.push_back(key);
+    for (const auto& [key, value] : old_values)
+        if (std::ranges::find(new_values, key, &KeyValues::value_type::first) == new_values.end())
+            changed.push_back(key);
+    return changed;
+}
 
 std::string resolved_scene(const scene::Scene& scene)
 {

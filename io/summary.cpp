@@ -119,9 +119,9 @@ std::string describe(const Incident& incident, const std::vector<std::string>& w
 
 void write_summary(const std::filesystem::path& path, const RunSummary& summary)
 {
-    const Json json = {{"status", summary.incidents.empty() ? "done" : "failed"},
-        {"incidents", incidents_json(summary)}, {"version", summary.version}, {"scene", summary.scene},
-        {"title", summary.title}, {"seed", summary.seed}, {"threads", summary.threads},
+    const char* status = !summary.incidents.empty() ? "failed" : summary.interrupted ? "interrupted" : "done";
+    const Json json = {{"status", status}, {"incidents", incidents_json(summary)}, {"version", summary.version},
+        {"scene", summary.scene}, {"title", summary.title}, {"seed", summary.seed}, {"threads", summary.threads},
         {"time", {{"simulated", summary.simulated_time}, {"step", summary.time_step}, {"steps", summary.steps}}},
         {"ledger", to_json(summary.ledger)}, {"pours", to_json(summary.pours)}, {"sensors", to_json(summary.sensors)},
         {"error", to_json(summary.error)}, {"timing", to_json(summary.timing)}};

@@ -70,6 +70,7 @@ struct TimingSummary {
 /// All that is left to say when a run is over.
 struct RunSummary {
     std::vector<Incident> incidents;     ///< why it failed; empty where it is done
+    bool interrupted = false;            ///< by a signal, after a checkpoint
     std::vector<std::string> wall_names; ///< by which an incident names the wall touched last
     std::string version;                 ///< of Talus
     std::string scene;                   ///< its name

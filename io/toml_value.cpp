@@ -16,7 +16,6 @@ namespace talus
 namespace
 {
 
-/// "a number above 0 [s] or inf", "three numbers [m]".
 std::string expected_numbers(std::string_view noun, const Key& key)
 {
     const auto& allowed = key.allowed;
@@ -26,11 +25,6 @@ std::string expected_numbers(std::string_view noun, const Key& key)
     if (!key.unit.empty()) text += fmt::format(" [{}]", key.unit);
     if (allowed.infinite) text += " or inf";
     return text;
-}
-
-std::string expected_names(const scene::Allowed& allowed)
-{
-    return allowed.names.empty() ? "a string" : enumerate_names(allowed.names, "or");
 }
 
 bool is_allowed(double number, const scene::Allowed& allowed)
@@ -105,10 +99,51 @@ void refuse_value(const toml::node& node, std::string_view key, std::string_view
         fmt::format("{}: '{}' must be {}, not {}", place_in(node.source()), key, expected, describe_value(node)));
 }
 
+std::string expected_value(const Key&, const bool&)
+{
+    return "true or false";
+}
+
+std::string expected_value(const Key& key, const std::int64_t&)
+{
+    return expected_numbers("a whole number", key);
+}
+
+std::string expected_value(const Key& key, const double&)
+{
+    return expected_numbers("a number", key);
+}
+
+std::string expected_value(const Key& key, const std::string&)
+{
+    return key.allowed.names.empty() ? "a string" : enumerate_names(key.allowed.names, "or");
+}
+
+std::string expected_value(const Key& key, const Vec3&)
+{
+    return expected_numbers("three numbers", key);
+}
+
+std::string expected_value(const Key& key, const scene::NumberOrName&)
+{
+    return fmt::format("{}, or {}", expected_numbers("a number", key), enumerate_names(key.allowed.names, "or"));
+}
+
+std::string expected_value(const Key&, const std::vector<scene::Waypoint>&)
+{
+    return "rows of four numbers [time, x, y, z]";
+}
+
+std::string expected_value(const Key& key, const std::vector<std::string>&)
+{
+    if (key.allowed.names.empty()) return "an array of strings";
+    return fmt::format("an array of {}", enumerate_names(key.allowed.names, "and"));
+}
+
 void read_value(const toml::node& node, const Key& key, bool& field)
 {
     const auto* truth = node.as_boolean();
-    if (!truth) refuse_value(node, key.name, "true or false");
+    if (!truth) refuse_value(node, key.name, expected_value(key, field));
     field = truth->get();
 }
 
@@ -116,28 +151,28 @@ void read_value(const toml::node& node, const Key& key, std::int64_t& field)
 {
     const auto* number = node.as_integer();
     if (!number || !is_allowed(static_cast<double>(number->get()), key.allowed))
-        refuse_value(node, key.name, expected_numbers("a whole number", key));
+        refuse_value(node, key.name, expected_value(key, field));
     field = number->get();
 }
 
 void read_value(const toml::node& node, const Key& key, double& field)
 {
     const auto number = allowed_number(node, key.allowed);
-    if (!number) refuse_value(node, key.name, expected_numbers("a number", key));
+    if (!number) refuse_value(node, key.name, expected_value(key, field));
     field = *number;
 }
 
 void read_value(const toml::node& node, const Key& key, std::string& field)
 {
     const auto* text = node.as_string();
-    if (!text || !is_allowed(text->get(), key.allowed)) refuse_name(node, key, expected_names(key.allowed));
+    if (!text || !is_allowed(text->get(), key.allowed)) refuse_name(node, key, expected_value(key, field));
     field = text->get();
 }
 
 void read_value(const toml::node& node, const Key& key, Vec3& field)
 {
     const auto* array = node.as_array();
-    const std::string expected = expected_numbers("three numbers", key);
+    const std::string expected = expected_value(key, field);
     if (!array || array->size() != 3) refuse_value(node, key.name, expected);
     for (int i = 0; i < 3; ++i) {
         const toml::node& component = (*array)[static_cast<std::size_t>(i)];
@@ -149,8 +184,7 @@ void read_value(const toml::node& node, const Key& key, Vec3& field)
 
 void read_value(const toml::node& node, const Key& key, scene::NumberOrName& field)
 {
-    const std::string expected =
-        fmt::format("{}, or {}", expected_numbers("a number", key), enumerate_names(key.allowed.names, "or"));
+    const std::string expected = expected_value(key, field);
     if (const auto* text = node.as_string()) {
         if (!is_allowed(text->get(), key.allowed)) refuse_name(node, key, expected);
         field = {0.0, text->get()};
@@ -163,9 +197,7 @@ void read_value(const toml::node& node, const Key& key, scene::NumberOrName& fie
 
 void read_value(const toml::node& node, const Key& key, std::vector<std::string>& field)
 {
-    const std::string expected = key.allowed.names.empty()
-                                     ? "an array of strings"
-                                     : fmt::format("an array of {}", enumerate_names(key.allowed.names, "and"));
+    const std::string expected = expected_value(key, field);
     const auto* array = node.as_array();
     if (!array) refuse_value(node, key.name, expected);
     field.clear();
@@ -178,7 +210,7 @@ void read_value(const toml::node& node, const Key& key, std::vector<std::string>
 
 void read_value(const toml::node& node, const Key& key, std::vector<scene::Waypoint>& field)
 {
-    const char* expected = "rows of four numbers [time, x, y, z]";
+    const std::string expected = expected_value(key, field);
     const auto* array = node.as_array();
     if (!array) refuse_value(node, key.name, expected);
     field.clear();

@@ -34,6 +34,16 @@ std::string describe_error(const toml::parse_error& error);
 /// A value as a sentence names it: "the string 'high'", "-1.5", "a table".
 std::string describe_value(const toml::node& node);
 
+/// What a key's value must be, for sentences: "a number above 0 [s] or inf", "three numbers [m]".
+std::string expected_value(const Key& key, const bool& field);
+std::string expected_value(const Key& key, const std::vector<scene::Waypoint>& field);
+std::string expected_value(const Key& key, const std::int64_t& field);
+std::string expected_value(const Key& key, const double& field);
+std::string expected_value(const Key& key, const std::string& field);
+std::string expected_value(const Key& key, const Vec3& field);
+std::string expected_value(const Key& key, const scene::NumberOrName& field);
+std::string expected_value(const Key& key, const std::vector<std::string>& field);
+
 /// Reads one value and checks that it is allowed.
 /// @throws InputError "place: 'key' must be …, not …"
 void read_value(const toml::node& node, const Key& key, bool& field);

@@ -121,6 +121,7 @@ struct WorldTable {
     Vec3 max = Vec3::Constant(infinity);
     std::vector<std::string> periodic;
     bool rotation = true;
+    std::string on_escape = "stop";
 
     static void describe(auto& self, auto&& key)
     {
@@ -133,6 +134,9 @@ struct WorldTable {
             "axes along which the world repeats itself from 'min' to 'max'; two at most");
         key("rotation", self.rotation, any(), "",
             "false: spheres do not turn, so that friction acts as between blocks; no rolling resistance then");
+        key("on_escape", self.on_escape, one_of({"stop", "remove"}), "",
+            "a sphere that leaves the world other than through an outlet stops the run; or it is taken out, counted, "
+            "kept in lost.vtp, and the run goes on");
     }
 };
 
@@ -552,6 +556,19 @@ struct OutputTable {
     }
 };
 
+struct CheckpointTable {
+    double interval = infinity;
+    double wall_interval = 600.0;
+
+    static void describe(auto& self, auto&& key)
+    {
+        key("interval", self.interval, or_infinite(above(0.0)), "s",
+            "simulated time between checkpoints; inf: none for its sake");
+        key("wall_interval", self.wall_interval, or_infinite(above(0.0)), "s",
+            "time by the clock between checkpoints; inf: none for its sake");
+    }
+};
+
 struct Scene {
     std::string title;
     std::int64_t seed = 1;
@@ -559,6 +576,7 @@ struct Scene {
     WorldTable world;
     SolverTable solver;
     OutputTable output;
+    CheckpointTable checkpoint;
     std::vector<MaterialTable> materials; ///< in the file a table of tables: [materials.NAME]
     std::vector<ContactTable> contact;
     std::vector<FillTable> fill;
@@ -575,6 +593,7 @@ struct Scene {
         key("world", self.world, any(), "", "");
         key("solver", self.solver, any(), "", "");
         key("output", self.output, any(), "", "");
+        key("checkpoint", self.checkpoint, any(), "", "");
         key("materials", self.materials, any(), "", "one table for each material");
         key("contact", self.contact, any(), "", "one table for each pair of materials that may touch");
         key("fill", self.fill, any(), "", "spheres there at the start");

@@ -16,7 +16,7 @@ constexpr std::int64_t outlet_interval =
 
 void Simulation::persist(Archive& archive)
 {
-    archive(state, contacts, pours, outflow);
+    archive(state, contacts, pours, outflow, escaped);
     if (archive.reading()) contacts.resize_contacts(model.physics);
     for (const auto& sensor : sensors) archive(*sensor);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/contact_network.hpp"
+#include "core/escape.hpp"
 #include "core/model.hpp"
 #include "core/outlet.hpp"
 #include "core/pour.hpp"
@@ -24,6 +25,7 @@ struct Simulation {
     ContactNetwork contacts;
     std::vector<Pour> pours;
     Outflow outflow;
+    std::vector<EscapedSphere> escaped; ///< and taken out, where the scene says so
     std::vector<std::unique_ptr<Sensor>> sensors;
     OutputChoice output;
     double duration = 0.0;         ///< [s]

@@ -37,6 +37,28 @@ max = [0.05, 0.05, 0.05]
 open = ["z+"]
 )";
 
+std::string stream_of_beads()
+{
+    const std::string longer = replaced(beads_in_a_box, "duration = 0.05", "duration = 0.4");
+    return replaced(longer, "[\"z+\"]", "[\"z-\", \"z+\"]") + R"([[pour]]
+name = "source"
+material = "glass"
+count = 20
+rate = 100.0
+diameter = { distribution = "uniform", min = 0.008, max = 0.01 }
+region = { shape = "box", min = [0, 0, 0.05], max = [0.05, 0.05, 0.08] }
+[[outlet]]
+name = "drain"
+region = { shape = "box", min = [-0.1, -0.1, -0.2], max = [0.15, 0.15, -0.05] }
+[[sensor]]
+name = "drain"
+kind = "mass_flow"
+point = [0, 0, -0.02]
+from = 0.15
+to = 0.3
+)";
+}
+
 Workplace::Workplace()
 {
     std::string name = (fs::temp_directory_path() / "talus-XXXXXX").string();
@@ -68,6 +90,12 @@ Outcome Workplace::talus(const std::string& arguments, const std::string& limits
     const int status = std::system(command.c_str());
     REQUIRE(WIFEXITED(status));
     return {WEXITSTATUS(status), read("stdout.txt"), read("stderr.txt")};
+}
+
+Outcome Workplace::talus_until(const std::string& file, const std::string& signal, const std::string& arguments) const
+{
+    return talus(
+        arguments + " & pid=$!; until [ -e " + file + " ]; do sleep 0.005; done; kill -" + signal + " $pid; wait $pid");
 }
 
 Outcome Workplace::run(const std::string& scene, const std::string& options) const

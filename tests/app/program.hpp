@@ -29,6 +29,10 @@ public:
     /// @param limits shell commands that come before, e.g. "ulimit -f 8;"
     Outcome talus(const std::string& arguments, const std::string& limits = "") const;
 
+    /// Calls `talus` and sends it a signal as soon as a file is there.
+    /// @param signal as `kill` takes it, e.g. "INT"
+    Outcome talus_until(const std::string& file, const std::string& signal, const std::string& arguments) const;
+
     /// Runs a scene text as scene.toml into the folder out, on one thread.
     Outcome run(const std::string& scene, const std::string& options = "") const;
 
@@ -38,6 +42,9 @@ private:
 
 /// Eight beads that fall onto the floor of a box: 0.05 s, six frames.
 extern const std::string beads_in_a_box;
+
+/// Beads poured into the box fall through its open floor into an outlet, past a sensor: 0.4 s.
+std::string stream_of_beads();
 
 /// The text with one part of it replaced.
 /// @pre the part occurs

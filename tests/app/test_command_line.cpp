@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
@@ -25,7 +27,7 @@ TEST_CASE("wrong arguments end with 2 and one sentence", "[app][command line]")
 TEST_CASE("every verb has help with an example", "[app][command line]")
 {
     const Workplace place;
-    const std::string verb = GENERATE(as<std::string>{}, "run", "check", "list");
+    const std::string verb = GENERATE(as<std::string>{}, "run", "resume", "check", "keys", "list");
     const Outcome outcome = place.talus(verb + " --help");
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.out, Contains("Example: talus " + verb));
@@ -36,7 +38,10 @@ TEST_CASE("the version names the libraries", "[app][command line]")
     const Workplace place;
     const Outcome outcome = place.talus("--version");
     CHECK(outcome.exit_code == 0);
-    CHECK_THAT(outcome.out, Contains("talus ") && Contains("Eigen 3") && Contains("CGAL 5") && Contains("VTK 9"));
+    CHECK_THAT(outcome.out, Contains("talus 0."));
+    for (const char* library : {"GNU 1", "OpenMP 4", "Eigen 3.", "CGAL 5.", "VTK 9.", "toml++ 3.", "nlohmann-json 3.",
+             "CLI11 2.", "fmt 9.", "zlib 1."})
+        CHECK_THAT(outcome.out, Contains(library));
 }
 
 TEST_CASE("list names every supplied scene with its title", "[app][command line]")
@@ -59,6 +64,7 @@ TEST_CASE("check says what a scene holds and needs, and writes nothing", "[app][
     CHECK_THAT(
         outcome.out, Contains("8 at the start") && Contains("walls: 1 ") && Contains("overlaps at the start: none"));
     CHECK_THAT(outcome.out, Contains("memory: about") && Contains("disk: up to") && Contains("steps: "));
+    CHECK_THAT(outcome.out, Contains("duration = 0.1 ") && Contains("on_escape = \"stop\""));
     CHECK_FALSE(place.exists("out"));
 }
 
@@ -78,4 +84,31 @@ spacing = 1.05
     const Outcome outcome = place.talus("check scene.toml");
     CHECK(outcome.exit_code == 2);
     CHECK_THAT(outcome.err, Contains("the region holds 0 spheres"));
+}
+
+TEST_CASE("keys lists every key with what is allowed, its default, unit and meaning", "[app][command line]")
+{
+    const Workplace place;
+    const Outcome all = place.talus("keys");
+    CHECK(all.exit_code == 0);
+    CHECK_THAT(all.out, Contains("\ntime\n  step ") &&
+                            Contains("duration               a number of at least 0 [s]; default 1.0\n") &&
+                            Contains("simulated time\n") && Contains("\nfill.region\n") && Contains("\nmaterials\n"));
+    const Outcome wall = place.talus("keys wall");
+    CHECK_THAT(
+        wall.out, Contains("hole_radius            a number of at least 0 [m]; default 0.0; with shape disk\n") &&
+                      !Contains("duration"));
+}
+
+TEST_CASE("a log file has what was printed, each line with the time of day", "[app][command line]")
+{
+    const Workplace place;
+    const Outcome outcome = place.run(beads_in_a_box, "--verbose --log-file run.log");
+    REQUIRE(outcome.exit_code == 0);
+    const std::string log = place.read("run.log");
+    CHECK(std::count(log.begin(), log.end(), '\n') == std::count(outcome.out.begin(), outcome.out.end(), '\n') +
+                                                          std::count(outcome.err.begin(), outcome.err.end(), '\n'));
+    CHECK_THAT(log, Contains("  scene: Beads in a box\n") && Contains("  frame: t ") && StartsWith("20"));
+    CHECK(place.run(beads_in_a_box, "--log-file run.log").exit_code == 2);
+    CHECK_THAT(place.read("run.log"), Contains("--force replaces it"));
 }

@@ -80,3 +80,28 @@ TEST_CASE("an escape loses no frame, and adds one of the step in which it happen
     const std::string last = metrics.substr(metrics.rfind('\n', metrics.size() - 2) + 1);
     CHECK(std::stod(last) == Approx(end));
 }
+
+TEST_CASE("with on_escape = \"remove\" a sphere that escapes is taken out, kept in lost.vtp and told", "[app][guard]")
+{
+    const Workplace place;
+    const Outcome outcome = place.run(table, "--set world.on_escape=remove --set time.duration=0.3");
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.err, Contains("sphere 0 ") && Contains("it is taken out") && Contains("'table'"));
+    CHECK(line_of(outcome.err + "|", "|") == 2); // once
+
+    const auto summary = nlohmann::json::parse(place.read("out/summary.json"));
+    CHECK(summary["status"] == "done");
+    CHECK(summary["time"]["simulated"] == Approx(0.3).epsilon(0.01));
+    CHECK(summary["ledger"]["escaped"] == 1);
+    CHECK(summary["ledger"]["inside"] == 0);
+    CHECK(summary["ledger"]["closes"] == true);
+    CHECK_THAT(place.read("out/lost.vtp"), Contains("NumberOfPoints=\"1\"") && Contains("Name=\"last_wall\""));
+}
+
+TEST_CASE("spheres that move far in a step are told once, with the step that would do", "[app][guard]")
+{
+    const Workplace place;
+    const Outcome outcome = place.run(table, "--set time.step=0.005 --until 0.1"); // 0.25 d in a step
+    CHECK_THAT(outcome.err, Contains("over 0.1 d in 10 steps") && Contains("--set time.step="));
+    CHECK(line_of(outcome.err + "|", "|") == 2);
+}

@@ -14,29 +14,6 @@ using nlohmann::json;
 namespace
 {
 
-/// Beads poured into the box fall through its open floor into an outlet.
-std::string stream()
-{
-    const std::string longer = replaced(beads_in_a_box, "duration = 0.05", "duration = 0.4");
-    return replaced(longer, "[\"z+\"]", "[\"z-\", \"z+\"]") + R"([[pour]]
-name = "source"
-material = "glass"
-count = 20
-rate = 100.0
-diameter = { distribution = "uniform", min = 0.008, max = 0.01 }
-region = { shape = "box", min = [0, 0, 0.05], max = [0.05, 0.05, 0.08] }
-[[outlet]]
-name = "drain"
-region = { shape = "box", min = [-0.1, -0.1, -0.2], max = [0.15, 0.15, -0.05] }
-[[sensor]]
-name = "drain"
-kind = "mass_flow"
-point = [0, 0, -0.02]
-from = 0.15
-to = 0.3
-)";
-}
-
 std::vector<double> frame_times(const std::string& pvd)
 {
     static const std::regex timestep("timestep=\"([^\"]*)\"");
@@ -59,7 +36,7 @@ std::vector<std::string> lines(const std::string& text)
 TEST_CASE("the ledger of a run with pour and outlet closes", "[app][run]")
 {
     const Workplace place;
-    const Outcome outcome = place.run(stream());
+    const Outcome outcome = place.run(stream_of_beads());
     REQUIRE(outcome.exit_code == 0);
     const json ledger = json::parse(place.read("out/summary.json"))["ledger"];
     CHECK(ledger["inserted"] == 8 + 20);
@@ -73,7 +50,7 @@ TEST_CASE("the ledger of a run with pour and outlet closes", "[app][run]")
 TEST_CASE("the summary has the keys that scripts rely on", "[app][run]")
 {
     const Workplace place;
-    REQUIRE(place.run(stream(), "--seed 7").exit_code == 0);
+    REQUIRE(place.run(stream_of_beads(), "--seed 7").exit_code == 0);
     const json summary = json::parse(place.read("out/summary.json"));
     CHECK(summary["status"] == "done");
     CHECK(summary["scene"] == "scene");
@@ -126,7 +103,7 @@ TEST_CASE("frames and rows come at the first step at or after their due time, wi
 TEST_CASE("metrics.csv names each column with its unit, sensors included", "[app][run]")
 {
     const Workplace place;
-    REQUIRE(place.run(stream()).exit_code == 0);
+    REQUIRE(place.run(stream_of_beads()).exit_code == 0);
     const auto rows = lines(place.read("out/metrics.csv"));
     CHECK_THAT(rows.at(0), StartsWith("time_s,spheres,inserted,left,contacts,sweeps,residual,worst_overlap_d,"));
     CHECK_THAT(rows.at(0), Contains("kinetic_energy_J") && Contains(",drain_") && !Contains("/"));
@@ -187,10 +164,11 @@ TEST_CASE("contact frames are written at the first and the last step unless more
 TEST_CASE("a pour that falls short says why", "[app][run]")
 {
     const Workplace place;
-    REQUIRE(place.run(stream(), "--set pour.source.count=1000").exit_code == 0);
+    REQUIRE(place.run(stream_of_beads(), "--set pour.source.count=1000").exit_code == 0);
     const std::string late = json::parse(place.read("out/summary.json"))["pours"][0]["shortfall"];
     CHECK_THAT(late, Contains("ended before"));
-    REQUIRE(place.run(stream(), "--force --set pour.source.count=1000 --set pour.source.rate=1e5").exit_code == 0);
+    REQUIRE(
+        place.run(stream_of_beads(), "--force --set pour.source.count=1000 --set pour.source.rate=1e5").exit_code == 0);
     const std::string full = json::parse(place.read("out/summary.json"))["pours"][0]["shortfall"];
     CHECK_THAT(full, Contains("no free place"));
     REQUIRE(place.run(stream(), "--force --set pour.source.count=0 --set pour.source.mass=10").exit_code == 0);
@@ -204,18 +182,18 @@ TEST_CASE("a pour that falls short says why", "[app][run]")
 TEST_CASE("the resolved scene runs again to the same metrics", "[app][run]")
 {
     const Workplace place;
-    REQUIRE(place.run(stream(), "--set contact.glass-glass.friction=0.3 --until 0.2").exit_code == 0);
+    REQUIRE(place.run(stream_of_beads(), "--set contact.glass-glass.friction=0.3 --until 0.2").exit_code == 0);
     REQUIRE(place.talus("run out/scene.resolved.toml -o again --threads 1").exit_code == 0);
     CHECK(place.read("again/metrics.csv") == place.read("out/metrics.csv"));
 }
 
-TEST_CASE("a quiet run prints nothing, a verbose one a line for every frame", "[app][run]")
+TEST_CASE("a quiet run prints nothing, a verbose one a line for every frame and checkpoint", "[app][run]")
 {
     const Workplace place;
     const Outcome quiet = place.run(beads_in_a_box, "--quiet");
     CHECK(quiet.exit_code == 0);
     CHECK(quiet.out + quiet.err == "");
     const Outcome verbose = place.run(beads_in_a_box, "--force --verbose");
-    CHECK(lines(verbose.err).size() == 5);
+    CHECK(lines(verbose.err).size() == 5 + 1); // and one for the checkpoint before the last step
     CHECK_THAT(verbose.err, StartsWith("frame: t "));
 }

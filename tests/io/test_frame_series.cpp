@@ -23,6 +23,28 @@ TEST_CASE("the .pvd lists every frame with its time and relative file", "[frames
           "  </Collection>\n</VTKFile>\n");
 }
 
+TEST_CASE("a resumed run takes away the frames after its checkpoint", "[frames]")
+{
+    const SceneFolder folder;
+    State state;
+    FrameWriter frames(folder.path());
+    frames.write_particles(state);
+    Archive stored;
+    stored(frames);
+    const std::string list = read_file(folder.path() / "particles.pvd");
+    for (int k = 0; k < 3; ++k) frames.write_particles(state);
+    frames.write_walls(Model(), 0.0);
+
+    FrameWriter resumed(folder.path());
+    Archive(stored.bytes())(resumed);
+    resumed.cut_back();
+    CHECK(read_file(folder.path() / "particles.pvd") == list);
+    CHECK(std::filesystem::exists(folder.path() / "frames/particles_000000.vtp"));
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "frames/particles_000001.vtp"));
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "frames/particles_000003.vtp"));
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "walls.pvd"));
+}
+
 TEST_CASE("a frame that the disk does not take is an output error and leaves no half file", "[frames]")
 {
     const SceneFolder folder;

@@ -106,3 +106,24 @@ TEST_CASE("metrics on a full disk or in no folder are an output error", "[run_fi
     CHECK(error_of<OutputError>([&] { MetricsFile(path, {"time_s"}); }) ==
           path.string() + ": cannot be written: No such file or directory");
 }
+
+TEST_CASE("metrics go on from where a checkpoint left them", "[run_files]")
+{
+    const SceneFolder folder;
+    const fs::path path = folder.path() / "metrics.csv";
+    std::uint64_t size = 0;
+    {
+        MetricsFile metrics(path, {"time_s"});
+        metrics.add_row({0.1});
+        metrics.sync();
+        size = metrics.size();
+        metrics.add_row({0.2});
+    }
+    MetricsFile(path, {"time_s"}, size).add_row({0.3});
+    CHECK(read_file(path) == "time_s\n0.1\n0.3\n");
+
+    const std::string changed = path.string() + ": the file is not as the run left it";
+    CHECK(error_of<InputError>([&] { MetricsFile(path, {"time_s"}, 100); }) == changed);
+    CHECK(error_of<InputError>([&] { MetricsFile(path, {"time_s", "flow"}, size); }) == changed);
+    CHECK(read_file(path) == "time_s\n0.1\n0.3\n");
+}

@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace talus;
 using namespace talus::test;
 
@@ -41,4 +43,27 @@ TEST_CASE("the resolved scene has no key that its shapes lack", "[scene_file]")
     CHECK(resolved.find("\nnormal = ") != std::string::npos);
     CHECK(resolved.find("radius") == std::string::npos);
     CHECK(resolved.find("mesh") == std::string::npos);
+}
+
+TEST_CASE("the keys in which two scenes differ are named", "[scene_file]")
+{
+    const SceneFolder folder;
+    folder.write("funnel.stl", one_triangle);
+    const scene::Scene before = read_scene(folder.write("scene.toml", full_scene)).scene;
+    CHECK(changed_keys(before, parse_scene(resolved_scene(before))).empty());
+
+    scene::Scene after = before;
+    after.seed = 8;
+    after.time.duration = 4.0;
+    after.contact[0].friction = 0.2;
+    after.fill[0].region.radius = 0.5;
+    after.materials[0].density = 1.0;
+    CHECK(changed_keys(before, after) == std::vector<std::string>{"seed", "time.duration",
+                                             "materials.dark wood.density", "contact[0].friction", "fill[0].region"});
+    after = before;
+    after.wall[0].shape = "plane";
+    after.sensor.clear();
+    const std::vector<std::string> changed = changed_keys(before, after);
+    for (const char* key : {"wall[0].shape", "wall[0].normal", "sensor", "wall[0].max", "sensor[0].kind"})
+        CHECK(std::ranges::find(changed, key) != changed.end());
 }

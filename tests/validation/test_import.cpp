@@ -31,7 +31,7 @@ TEST_CASE("a pile at rest from another program's file stays as it is", "[import]
 {
     auto simulation = open_scene("import");
     const auto start = simulation.state.position; // in the order of ids
-    run_until(simulation, 1e-6); // one step, with a sample of the angle
+    run_until(simulation, 1e-6);                  // one step, with a sample of the angle
     const double angle = result(simulation, "heap", "angle").value;
     run_until(simulation, 0.8);
     const auto moved = displacements(simulation, start);

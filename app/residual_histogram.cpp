@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/residual_histogram.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+
+void ResidualHistogram::add(double residual)
+{
+    // bin k > 0 holds those up to 10^(least_exponent + k / bins_per_decade)
+    const double bins_up = residual > 0.0 ? std::ceil(bins_per_decade * (std::log10(residual) - least_exponent)) : 0.0;
+    const double bin = std::clamp(bins_up, 0.0, static_cast<double>(counts_.size() - 1));
+    ++counts_[static_cast<std::size_t>(bin)];
+    ++count_;
+    sum_ += residual;
+    worst_ = std::max(worst_, residual);
+}
+
+double ResidualHistogram::mean() const
+{
+    return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0;
+}
+
+double ResidualHistogram::percentile(double share) const
+{
+    const double wanted = share * static_cast<double>(count_);
+    std::int64_t reached = 0;
+    for (std::size_t bin = 0; bin < counts_.size(); ++bin) {
+        reached += counts_[bin];
+        if (static_cast<double>(reached) < wanted) continue;
+        const double edge = std::pow(10.0, least_exponent + static_cast<double>(bin) / bins_per_decade);
+        return std::min(edge, worst_);
+    }
+    return worst_;
+}
+
+} // namespace talus

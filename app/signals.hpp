@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace talus
+{
+
+/// From now on SIGINT and SIGTERM ask the run to stop after its step, and SIGUSR1 asks for a checkpoint. A second
+/// SIGINT or SIGTERM ends the program at once.
+void catch_signals();
+
+/// The signal that asked the run to stop; 0: none.
+int stop_signal();
+
+/// Whether a checkpoint was asked for since the last call.
+bool checkpoint_requested();
+
+} // namespace talus

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/app/program.hpp"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <sstream>
+#include <vector>
+
+namespace
+{
+
+/// A situation in which the program complains: what a shell does first, and how `talus` is called. The folder holds
+/// scene.toml (beads_in_a_box) and bead.toml (a bead that rolls off a table).
+struct Situation {
+    std::string text;
+    std::string before; ///< shell commands; empty: none
+    std::string arguments;
+};
+
+const std::string bead_on_a_table = R"(title = "A bead falls off a table"
+[materials.glass]
+[[contact]]
+between = ["glass", "glass"]
+friction = 0.1
+[[fill]]
+material = "glass"
+count = 1
+diameter = 0.01
+region = { shape = "box", min = [-0.0051, -0.0051, 0.0], max = [0.0051, 0.0051, 0.0102] }
+spacing = 1.02
+velocity = [0.5, 0.0, 0.0]
+[[wall]]
+name = "table"
+shape = "disk"
+material = "glass"
+radius = 0.03
+)";
+
+const std::string check = "check scene.toml";
+const std::string run = "run scene.toml -o out --quiet --threads 1";
+const std::string resume = "resume out --quiet --threads 1";
+
+/// The scene with one part of a line replaced, as sed does it.
+Situation edited(const std::string& text, const std::string& part, const std::string& replacement)
+{
+    return {text, "sed -i 's/" + part + "/" + replacement + "/' scene.toml", check};
+}
+
+Situation set(const std::string& text, const std::string& key_and_value)
+{
+    return {text, "", check + " --set '" + key_and_value + "'"};
+}
+
+/// The scene with another wall, of which only these keys are given.
+Situation wall(const std::string& text, const std::string& keys)
+{
+    return {text, "printf '[[wall]]\\nname = \"w\"\\nmaterial = \"glass\"\\n" + keys + "\\n' >> scene.toml", check};
+}
+
+Situation sensor(const std::string& text, const std::string& keys)
+{
+    return {text, "printf '[[sensor]]\\nname = \"s\"\\n" + keys + "\\n' >> scene.toml", check};
+}
+
+/// After a run of the scene, and what else a shell does to its folder.
+Situation after_run(const std::string& text, const std::string& before, const std::string& arguments)
+{
+    return {text, std::string(TALUS_BINARY) + " " + run + (before.empty() ? "" : "; " + before), arguments};
+}
+
+/// A run that gets a signal when it has begun.
+std::string stopped_by(const std::string& signal)
+{
+    return run + " --until 9 & pid=$!; until [ -e out/frames/particles_000002.vtp ]; do sleep 0.005; done; kill -" +
+           signal + " $pid; wait $pid";
+}
+
+/// The rows of the table. A new message is a new line here; TALUS_UPDATE_TABLES=1 then writes the table.
+const std::vector<Situation> situations = {
+    {"no verb", "", ""},
+    {"an unknown verb", "", "fly"},
+    {"no scene named", "", "run"},
+    {"an unknown option", "", "run scene.toml --fast"},
+    {"a wrong number of threads", "", "run scene.toml --threads 0"},
+    {"an end before the beginning", "", "run scene.toml --until -1"},
+    {"two options that exclude each other", "", "run scene.toml --quiet --verbose"},
+    {"a scene that is not there", "", "run nowhere"},
+    {"keys of a table that is not there", "", "keys wal"},
+    edited("text that is not TOML", "count = 8", "count = = 8"),
+    {"a scene file that is too large", "head -c 2000000 /dev/zero > scene.toml", check},
+    edited("a misspelt key", "friction", "fricton"),
+    edited("a misspelt table", "\\[time\\]", "[tine]"),
+    edited("a wrong type", "duration = 0.05", "duration = \"long\""),
+    edited("a value out of range", "density = 2500.0", "density = -1.0"),
+    edited("a value that is not a number", "density = 2500.0", "density = nan"),
+    edited("a whole number is wanted", "count = 8", "count = 8.5"),
+    edited("a vector is wanted", "min = \\[0, 0, 0\\]", "min = [0, 0]"),
+    edited("a name that is not allowed", "^shape = \"box\"", "shape = \"bowl\""),
+    edited("a key of another shape", "^open", "hole_radius = 0.01\\nopen"),
+    edited("a missing key", "count = 8", ""),
+    set("--set without a value", "time.duration"),
+    set("--set of a misspelt key", "time.duraton=1"),
+    set("--set of a value that is not TOML", "time.duration=[1"),
+    set("--set in a table that is not there", "wall.gate.remove_at=1"),
+    set("--set of a whole table", "wall.tray=1"),
+    set("--set within a value", "time.duration.long=1"),
+    edited("an unknown material", "material = \"glass\"", "material = \"steel\""),
+    edited("a contact of one material", "\\[\"glass\", \"glass\"\\]", "[\"glass\"]"),
+    {"a contact given twice", "printf '[[contact]]\\nbetween = [\"glass\", \"glass\"]\\n' >> scene.toml", check},
+    {"a contact not given", "sed -i 's/^material = \"glass\"/material = \"wood\"/; $ a [materials.wood]' scene.toml",
+        check},
+    {"a stiffness of rigid contacts", "",
+        check + " --set solver.stabilisation=projected --set contact.0.stiffness=1e5"},
+    set("fewer sweeps at most than at least", "solver.max_sweeps=1"),
+    set("no automatic step", "world.gravity=[0, 0, 0]"),
+    {"an empty world", "", check + " --set 'world.min=[1, 1, 1]' --set 'world.max=[1, 1, 1]'"},
+    set("no spheres", "fill.0.count=0"),
+    edited("a fill region too small for its spheres", "count = 8", "count = 800"),
+    edited("a fill region smaller than a sphere", "max = \\[0.05, 0.05, 0.05\\] }", "max = [0.05, 0.05, 0.001] }"),
+    edited("an empty fill region", "max = \\[0.05, 0.05, 0.05\\] }", "max = [0.05, 0.05, -0.05] }"),
+    set("a fill region outside of the world", "world.max=[0.04, 1, 1]"),
+    edited("diameters upside down", "diameter = 0.01",
+        "diameter = { distribution = \"uniform\", min = 0.02, max = 0.01 }"),
+    wall("two walls of one name", "shape = \"plane\"\\n[[wall]]\\nname = \"w\"\\nmaterial = \"glass\""
+                                  "\\nshape = \"plane\""),
+    wall("a wall without direction", "shape = \"plane\"\\nnormal = [0, 0, 0]"),
+    wall("a disk without radius", "shape = \"disk\"\\nradius = 0"),
+    wall("a hole larger than its disk", "shape = \"disk\"\\nradius = 0.01\\nhole_radius = 0.02"),
+    wall("an empty box", "shape = \"box\"\\nmax = [0, 1, 1]"),
+    wall("a mesh that is not there", "mesh = \"cup.stl\""),
+    {"a mesh that is no STL",
+        "echo 'a letter to a friend' > cup.stl; printf '[[wall]]\\nname = \"w\"\\n"
+        "material = \"glass\"\\nmesh = \"cup.stl\"\\n' >> scene.toml",
+        check},
+    {"a mesh that ends too early",
+        "printf 'solid cup\\nfacet normal 0 0 1\\nouter loop\\nvertex 0 0' > cup.stl; printf "
+        "'[[wall]]\\nname = \"w\"\\nmaterial = \"glass\"\\nmesh = \"cup.stl\"\\n' >> scene.toml",
+        check},
+    sensor("a sensor that measures backwards", "kind = \"mass_flow\"\\nfrom = 1\\nto = 1"),
+    sensor("a sensor whose line has no length", "kind = \"repose\"\\ninner_radius = 1\\nouter_radius = 1"),
+    {"a folder with other files", "mkdir out; touch out/thesis.tex", run},
+    {"a folder that is a file", "touch out", run},
+    after_run("a folder that holds a run", "", run),
+    {"resume without a folder", "", resume},
+    {"resume of a folder without a run", "mkdir out; touch out/thesis.tex", resume},
+    after_run("resume without a checkpoint", "rm out/checkpoint.*", resume),
+    after_run("resume with a broken checkpoint", "truncate -s -1 out/checkpoint.latest", resume),
+    after_run("resume with a file that is no checkpoint", "echo notes > out/checkpoint.latest", resume),
+    after_run("resume with a checkpoint of another Talus", "sed -i 's/0\\.1\\.0/0.0.9/' out/checkpoint.latest", resume),
+    after_run("resume with another physics", "", resume + " --set contact.glass-glass.friction=0.1"),
+    after_run("resume to a time that is over", "", resume + " --until 0.01"),
+    after_run("resume without its metrics", "rm out/metrics.csv", resume),
+    after_run("resume with metrics that were cut", "truncate -s 100 out/metrics.csv", resume),
+    {"resume with another mesh",
+        "printf 'solid\\nfacet normal 0 0 1\\nouter loop\\nvertex 0 0 -1\\nvertex 1 0 -1\\nvertex 0 1 -1\\nendloop\\n"
+        "endfacet\\nendsolid\\n' > cup.stl; printf '[[wall]]\\nname = \"w\"\\nmaterial = \"glass\"\\nmesh = \"cup.stl\""
+        "\\n' >> scene.toml; " TALUS_BINARY " run scene.toml -o out --quiet; sed -i s/-1/-2/ cup.stl",
+        resume},
+    {"a sphere that escapes", "", "run bead.toml --quiet"},
+    {"a sphere that is too fast", "",
+        "run bead.toml --quiet --until 9 --set 'world.min=[-inf, -inf, -1e4]' "
+        "--set 'world.max=[1e4, inf, inf]'"},
+    {"SIGINT", "", stopped_by("INT")},
+    {"SIGTERM", "", stopped_by("TERM")},
+    {"a folder that cannot be made", "touch file", "run scene.toml -o file/out"},
+    {"a log file that cannot be written", "", run + " --log-file nowhere/log"},
+    {"a disk that is full", "trap \"\" XFSZ; ulimit -f 16", run + " --set time.metrics_interval=1e-4"},
+};
+
+/// The text without what differs from place to place and from release to release.
+std::string with_placeholders(std::string text, const Workplace& place)
+{
+    const std::string folder = place.path("").string();
+    for (std::size_t at; (at = text.find(folder)) != std::string::npos;) text.replace(at, folder.size(), "/…/");
+    const std::vector<std::pair<const char*, const char*>> changing = {
+        {"neither a file nor one of .*", "neither a file nor one of …"}, {"t = [^ ]* s", "t = … s"},
+        {R"(it is at \(.*\) m with .* m/s)", "it is at (…) m with … m/s"},
+        {"hold [0-9]* bytes and holds [0-9]*", "hold … bytes and holds …"}};
+    for (const auto& [pattern, placeholder] : changing)
+        text = std::regex_replace(text, std::regex(pattern), placeholder);
+    return text;
+}
+
+/// A row of the table, checked for what every complaint must be: one line, on standard error, with an exit code.
+std::string row(const Situation& situation)
+{
+    INFO(situation.text);
+    const Workplace place;
+    place.write("scene.toml", beads_in_a_box);
+    place.write("bead.toml", bead_on_a_table);
+    const std::string before = situation.before.empty() ? "" : situation.before + ";";
+    const Outcome outcome = place.talus(situation.arguments, before);
+    CHECK(outcome.exit_code != 0);
+    CHECK(outcome.out.empty());
+    CHECK(line_of(outcome.err + "|", "|") == 2);
+    const std::string sentence = with_placeholders(outcome.err, place);
+    const std::string cell = std::regex_replace(sentence.substr(0, sentence.find('\n')), std::regex("\\|"), "\\|");
+    return fmt::format("| {} | {} | `{}` |\n", situation.text, outcome.exit_code, cell);
+}
+
+} // namespace
+
+TEST_CASE("every complaint is one sentence with an exit code, as the table in tests/README.md has it", "[app][errors]")
+{
+    const std::string begin = "<!-- errors begin -->\n", end = "<!-- errors end -->\n";
+    std::string table = "| situation | exit code | sentence |\n| --- | --- | --- |\n";
+    for (const Situation& situation : situations) table += row(situation);
+
+    const std::string path = TALUS_SOURCE_DIR "/tests/README.md";
+    std::ifstream file(path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::size_t from = text.find(begin), to = text.find(end);
+    REQUIRE(to != std::string::npos);
+    const std::string now = text.substr(0, from + begin.size()) + table + text.substr(to);
+    if (std::getenv("TALUS_UPDATE_TABLES")) std::ofstream(path) << now;
+    CHECK((std::getenv("TALUS_UPDATE_TABLES") || now == text)); // else: TALUS_UPDATE_TABLES=1 build/test_app "[errors]"
+}
