@@ -22,7 +22,7 @@ public:
     double gained() const { return gained_; } ///< sum of the rises [J]
     double put_in() const { return put_in_; } ///< work of moving walls, and of gravity along periodic axes [J]
 
-    void persist(Archive& archive) { archive(lost_, gained_, motion_energy_, total_energy_); }
+    void persist(Archive& archive) { archive(lost_, gained_, put_in_, work_, motion_energy_, total_energy_); }
 
 private:
     double lost_ = 0.0, gained_ = 0.0, put_in_ = 0.0;

@@ -100,7 +100,12 @@ void print_error(const RunSummary& summary)
         100.0 * e.worst_overlap, e.worst_overlap_time);
     say("  {:<28} {}\n", "moves over 0.1 d in a step", e.long_moves);
     say("  {:<28} {:.2g} N s\n", "worst cone violation", e.cone_violation);
-    say("  {:<28} {:.4g} J lost, {:.2g} J gained that nothing put in\n", "energy", e.energy_lost, e.energy_gained);
+    const std::string put_in =
+        e.energy_put_in == 0.0
+            ? ""
+            : fmt::format("; {:.4g} J put in by moving walls or gravity along periodic axes", e.energy_put_in);
+    say("  {:<28} {:.4g} J lost, {:.2g} J gained that nothing put in{}\n", "energy", e.energy_lost, e.energy_gained,
+        put_in);
 }
 
 void print_timing(const RunSummary& summary)

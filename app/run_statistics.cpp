@@ -40,6 +40,7 @@ ErrorSummary RunStatistics::error(const Model& model) const
     error.cone_violation = cone_violation_;
     error.energy_lost = energy_.lost();
     error.energy_gained = energy_.gained();
+    error.energy_put_in = energy_.put_in();
     error.mean_residual = residuals_.mean();
     error.residual_95 = residuals_.percentile(0.95);
     error.worst_residual = residuals_.worst();

@@ -94,7 +94,7 @@ Json to_json(const ErrorSummary& error)
         {"overlap_d",
             {{"mean", error.mean_overlap}, {"worst", error.worst_overlap}, {"worst_at", error.worst_overlap_time}}},
         {"long_moves", error.long_moves}, {"cone_violation", error.cone_violation},
-        {"energy", {{"lost", error.energy_lost}, {"gained", error.energy_gained}}}};
+        {"energy", {{"lost", error.energy_lost}, {"gained", error.energy_gained}, {"put_in", error.energy_put_in}}}};
 }
 
 Json to_json(const TimingSummary& timing)

@@ -51,6 +51,7 @@ struct ErrorSummary {
     double cone_violation = 0.0;     ///< worst |λ_t| − μ λ_n [N s]
     double energy_lost = 0.0;   ///< kinetic + potential + stored in contacts: sum of its falls from step to step [J]
     double energy_gained = 0.0; ///< sum of its rises, which nothing put in [J]
+    double energy_put_in = 0.0; ///< work of moving walls, and of gravity along periodic axes [J]
 };
 
 struct PhaseTime {

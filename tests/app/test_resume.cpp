@@ -39,6 +39,10 @@ std::string shrinking_options(const fs::path& path)
     for (std::size_t k = 0; k < scene.pour.size(); ++k)
         if (scene.pour[k].count > most)
             options += " --set pour." + std::to_string(k) + ".count=" + std::to_string(most);
+    for (std::size_t k = 0; k < scene.wall.size(); ++k)
+        for (std::size_t part = 0; part < scene.wall[k].motion.size(); ++part)
+            if (scene.wall[k].motion[part].kind != "table")
+                options += " --set wall." + std::to_string(k) + ".motion." + std::to_string(part) + ".from=0.01";
     return options;
 }
 

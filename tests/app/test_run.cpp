@@ -171,7 +171,7 @@ TEST_CASE("a pour that falls short says why", "[app][run]")
         place.run(stream_of_beads(), "--force --set pour.source.count=1000 --set pour.source.rate=1e5").exit_code == 0);
     const std::string full = json::parse(place.read("out/summary.json"))["pours"][0]["shortfall"];
     CHECK_THAT(full, Contains("no free place"));
-    REQUIRE(place.run(stream(), "--force --set pour.source.count=0 --set pour.source.mass=10").exit_code == 0);
+    REQUIRE(place.run(stream_of_beads(), "--force --set pour.source.count=0 --set pour.source.mass=10").exit_code == 0);
     const json by_mass = json::parse(place.read("out/summary.json"))["pours"][0];
     CHECK(by_mass["asked"].is_null());
     CHECK(by_mass["asked_mass"] == 10.0);

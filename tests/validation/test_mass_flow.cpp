@@ -56,26 +56,26 @@ TEST_CASE("a conical hopper discharges half as fast again as a flat bottom, as i
     require_closed_ledger(s);
 }
 
-TEST_CASE("the discharge grows with the 5/2 power of the outlet less 1.4 grains", "[mass_flow][slow]")
+TEST_CASE("the discharge grows with the outlet as it does elsewhere", "[mass_flow][slow]")
 {
-    // Beverloo, Leniger & van de Velde 1961: W ∝ (D − k d)^{5/2} with k = 1.4 for spheres.
-    // Windows in which some two to three thousand spheres pass: a narrow outlet flows in gusts.
+    // Beverloo, Leniger & van de Velde 1961: W ∝ (D − k d)^{5/2} with k = 1.4 for spheres. That is the limit of wide
+    // outlets: with the correction for dilute outlets of Mankoc et al. 2007 (Granular Matter 9:407) the exponent of a
+    // line through 7, 8.5 and 10.5 diameters is 2.55, and LIGGGHTS 3.8 (E = 5e6 Pa), from the same settled bed, gives
+    // 1295, 2461 and 4590 spheres a second, 2.61. Here 1259 ± 13, 2336 ± 6, 4535 ± 12 over three seeds: 2.64 ± 0.03.
     struct Run {
         double outlet, until;
     };
     LineFit line;
-    for (const auto& [outlet, until] : {Run{0.060, 3.4}, Run{0.075, 2.4}, Run{0.095, 1.9}}) {
-        auto s = open_scene(
-            "flat_silo", {"fill.0.count=12000", "fill.0.region.radius=0.12", "wall.tube.radius=0.12",
-                             "wall.bottom.radius=0.12", "wall.bottom.hole_radius=" + std::to_string(0.5 * outlet),
-                             "sensor.outlet.from=1.0", "sensor.outlet.to=" + std::to_string(until)});
+    for (const auto& [outlet, until] : {Run{0.070, 2.8}, Run{0.085, 2.3}, Run{0.105, 2.0}}) {
+        auto s = open_scene("flat_silo",
+            {"fill.0.count=18000", "fill.0.region.radius=0.135", "wall.tube.radius=0.135", "wall.bottom.radius=0.135",
+                "wall.bottom.hole_radius=" + std::to_string(0.5 * outlet), "wall.gate.radius=0.07",
+                "sensor.outlet.from=1.1", "sensor.outlet.to=" + std::to_string(until)});
         run_until(s, until);
         const auto flow = result(s, "outlet", "sphere_flow");
         WARN("outlet " << outlet << " m: " << flow.value << " +- " << flow.spread << " spheres/s");
         line.add(std::log(outlet - 1.4 * 0.01), std::log(flow.value));
     }
     WARN("exponent " << line.slope());
-    // The flow through the narrowest is known to 4 % from one run, the exponent then to 0.08; twice that and the 0.05
-    // by which a k of 1.3 instead of 1.4 would change it.
-    CHECK(line.slope() == Approx(2.5).margin(0.2));
+    CHECK(line.slope() == Approx(2.6).margin(0.1));
 }
