@@ -30,17 +30,6 @@ struct Surface {
         return mean.mean();
     }
 
-    /// Outer radius of the last ring before the first that lacks spheres in more than half of its sectors.
-    double foot() const
-    {
-        std::size_t ring = 0;
-        const auto covered = [&] {
-            return std::count(top[ring].begin(), top[ring].end(), nothing) <= static_cast<std::ptrdiff_t>(sectors / 2);
-        };
-        while (ring < top.size() && (ring < 3 || covered())) ++ring; // the first rings are smaller than their sectors
-        return static_cast<double>(ring) * ring_width;
-    }
-
     double radius(std::size_t ring) const { return (static_cast<double>(ring) + 0.5) * ring_width; }
 };
 
@@ -67,6 +56,23 @@ Surface find_surface(const State& state, const Vec3& base, const Vec3& up, doubl
     return surface;
 }
 
+/// The distance from the axis within which 99 % of the mass lies [m].
+double find_foot(const State& state, const Vec3& base, const Vec3& up)
+{
+    std::vector<std::pair<double, double>> mass_at; // distance, mass
+    double mass = 0.0;
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        const Vec3 x = state.position[i] - base;
+        mass_at.emplace_back((x - x.dot(up) * up).norm(), state.mass(i));
+        mass += state.mass(i);
+    }
+    std::sort(mass_at.begin(), mass_at.end());
+    double within = 0.0;
+    for (const auto& [distance, m] : mass_at)
+        if ((within += m) >= 0.99 * mass) return distance;
+    return 0.0;
+}
+
 /// Slope angle [degree] of the line through the ring means between two radii, over some sectors.
 double slope_angle(const Surface& surface, double inner, double outer, std::size_t first_sector, std::size_t count)
 {
@@ -90,7 +96,7 @@ void Repose::sample(const Snapshot& now)
 {
     const Vec3 up = -now.model.gravity.normalized();
     const auto surface = find_surface(now.state, base_, up, now.model.mean_diameter);
-    foot_ = surface.foot();
+    foot_ = find_foot(now.state, base_, up);
     apex_ = 0.0;
     for (std::size_t ring = 0; ring < surface.top.size(); ++ring) {
         const double mean = surface.ring_mean(ring, 0, sectors);

@@ -11,8 +11,8 @@ namespace talus
 /// Angle of repose of a heap round an axis through `base`, straight up against gravity: the slope of a line through
 /// ring means of the highest sphere tops (rings one diameter wide, 16 azimuth sectors), over the rings between
 /// inner_radius and outer_radius; where those are not given, over the rings between 20 and 80 % of the heap's height.
-/// The foot is the radius of the ring out to which every ring has spheres in at least half of its sectors, so that
-/// grains which roll away alone do not count. The spread is the standard error over the angles of eight azimuth
+/// The foot is the distance from the axis within which 99 % of the mass lies: grains that
+/// roll away alone do not count. The spread is the standard error over the angles of eight azimuth
 /// octants.
 class Repose : public Sensor
 {
@@ -32,7 +32,7 @@ private:
     double inner_radius_, outer_radius_;
     double angle_ = nothing_yet, spread_ = nothing_yet; ///< [degree]; not a number while there is no heap
     double apex_ = 0.0;                                 ///< height of the highest ring mean [m]
-    double foot_ = 0.0;                                 ///< radius out to which spheres lie in most sectors [m]
+    double foot_ = 0.0; ///< distance from the axis within which 99 % of the mass lies [m]
 };
 
 } // namespace talus
