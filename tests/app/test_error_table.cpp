@@ -62,6 +62,37 @@ Situation wall(const std::string& text, const std::string& keys)
     return {text, "printf '[[wall]]\\nname = \"w\"\\nmaterial = \"glass\"\\n" + keys + "\\n' >> scene.toml", check};
 }
 
+/// The same with a part of a motion.
+Situation motion(const std::string& text, const std::string& keys)
+{
+    return wall(text, "shape = \"plane\"\n[[wall.motion]]\n" + keys);
+}
+
+/// The scene with another size of its spheres.
+Situation size(const std::string& text, const std::string& diameter, const std::string& before = "")
+{
+    auto situation = edited(text, "diameter = 0.01", "diameter = " + diameter);
+    situation.before = (before.empty() ? "" : before + "; ") + situation.before;
+    return situation;
+}
+
+/// The scene with a fill from a file, of which only these keys are given.
+Situation file_fill(const std::string& text, const std::string& before, const std::string& keys = "file = \"s.csv\"")
+{
+    return {text,
+        before + "; printf '[[fill]]\narrangement = \"file\"\nmaterial = \"glass\"\n" + keys + "\n' >> scene.toml",
+        check};
+}
+
+/// The scene with a pour, of which these keys are given besides material, size and region.
+Situation pour(const std::string& text, const std::string& keys)
+{
+    return {text,
+        "printf '[[pour]]\nmaterial = \"glass\"\ndiameter = 0.01\nregion = { max = [0.05, 0.05, 0.05] }\n" + keys +
+            "\n' >> scene.toml",
+        check};
+}
+
 Situation sensor(const std::string& text, const std::string& keys)
 {
     return {text, "printf '[[sensor]]\\nname = \"s\"\\n" + keys + "\\n' >> scene.toml", check};
@@ -143,6 +174,51 @@ const std::vector<Situation> situations = {
         check},
     sensor("a sensor that measures backwards", "kind = \"mass_flow\"\\nfrom = 1\\nto = 1"),
     sensor("a sensor whose line has no length", "kind = \"repose\"\\ninner_radius = 1\\nouter_radius = 1"),
+    sensor("a region of no size", "kind = \"region\"\nregion = { max = [0, 0, 0] }"),
+    sensor("an unknown wall", "kind = \"wall_force\"\nwall = \"lid\""),
+    sensor("a profile across a box of a cylinder's direction",
+        "kind = \"profile\"\ndirection = \"radial\"\nregion = { max = [1, 1, 1] }"),
+    sensor("a slope without direction", "kind = \"slope\"\nalong = [0, 0, 0]\nlength = 1"),
+    edited("an array that frames do not have", "^\\[time\\]", "[output]\\nparticle_arrays = [\"colour\"]\\n[time]"),
+    motion("an unknown motion", "kind = \"fly\""),
+    motion("a motion without its velocity", "kind = \"translate\""),
+    motion("a motion that ends before it begins", "kind = \"translate\"\nvelocity = [1, 0, 0]\nfrom = 2\nto = 1"),
+    motion("a turn about no axis", "kind = \"turn\"\naxis = [0, 0, 0]\nrate = 1"),
+    motion("a key of another motion", "kind = \"turn\"\naxis = [0, 0, 1]\nrate = 1\nfrequency = 2"),
+    motion("a table of no rows", "kind = \"table\"\ntable = []"),
+    motion("a table with a short row", "kind = \"table\"\ntable = [[0, 0, 0]]"),
+    motion("a table that goes back in time", "kind = \"table\"\ntable = [[1, 0, 0, 0], [0, 0, 0, 0]]"),
+    wall("grains in a box upside down", "shape = \"grains\"\nmin = [0, 0, 1]\nmax = [1, 1, 0]\ndiameter = 0.01"),
+    set("an unknown periodic axis", "world.periodic=[\"w\"]"),
+    set("a periodic axis without ends", "world.periodic=[\"x\"]"),
+    {"a periodic axis that is too short", "",
+        check + " --set 'world.periodic=[\"x\"]' --set 'world.min=[0,-inf,-inf]' --set 'world.max=[0.03,inf,inf]'"},
+    {"three periodic axes", "",
+        check + " --set 'world.periodic=[\"x\",\"y\",\"z\"]' --set 'world.min=[0,0,0]' --set 'world.max=[1,1,1]'"},
+    {"a plane across a periodic axis",
+        "printf '[[wall]]\nname = \"w\"\nmaterial = \"glass\"\nshape = \"plane\"\n' >> scene.toml",
+        check + " --set 'world.periodic=[\"z\"]' --set 'world.min=[-inf,-inf,0]' --set 'world.max=[inf,inf,1]'"},
+    {"rolling resistance without rotation", "",
+        check + " --set world.rotation=false --set contact.0.rolling_friction=0.1"},
+    set("neither true nor false", "world.rotation=1"),
+    size("a normal distribution cut to nothing",
+        "{ distribution = \"normal\", mean = 0.01, deviation = 0.001, min = 0.05, max = 0.06 }"),
+    size("a sieve without a file", "{ distribution = \"sieve\" }"),
+    size("a sieve file that is not there", "{ distribution = \"sieve\", file = \"s.csv\" }"),
+    size("a sieve file with a wrong header", "{ distribution = \"sieve\", file = \"s.csv\" }",
+        "printf 'a,b\n1,2\n' > s.csv"),
+    size("a sieve file that falls", "{ distribution = \"sieve\", file = \"s.csv\" }",
+        "printf 'size_mm,passing_percent\n5,0\n6,50\n7,40\n' > s.csv"),
+    edited("species and a material", "count = 8",
+        "count = 8\\nspecies = [{ material = \"glass\", diameter = 0.01, share = 1 }]"),
+    file_fill("a file of spheres that is not there", "true"),
+    file_fill("a file of spheres with a column missing", "printf 'x,y,radius\n1,2,3\n' > s.csv"),
+    file_fill("a file of spheres with a word for a number", "printf 'x,y,z,radius\n1,2,three,4\n' > s.csv"),
+    file_fill("a file of spheres that no one can read", "echo notes > s.vtp", "file = \"s.vtp\""),
+    file_fill("a file of spheres of another kind", "echo notes > s.txt", "file = \"s.txt\""),
+    pour("a pour of nothing", "rate = 10"),
+    pour("a pour by number and by mass", "count = 10\nmass = 1\nrate = 10"),
+    pour("a pour without a rate", "count = 10"),
     {"a folder with other files", "mkdir out; touch out/thesis.tex", run},
     {"a folder that is a file", "touch out", run},
     after_run("a folder that holds a run", "", run),
