@@ -53,10 +53,10 @@ TEST_CASE("a shaken box carries the weight of its beads on average", "[scenes]")
 TEST_CASE("in a slowly turning drum the surface lies at 22 to 27 degrees, and friction takes out what the drum puts in",
     "[scenes][slow]")
 {
-    // Angle: spheres with friction 0.5 at Froude numbers of 1e-4 to 1e-2. Power: torque × rate goes into heat, for the
-    // energy of the bed is the same from turn to turn.
-    constexpr double rate = 0.313, begin = 2.5, end = 5.0;
-    auto s = open_scene("drum");
+    // Angle: spheres with friction 0.5 at Froude numbers of 1e-4 to 1e-2. Power: torque × rate goes into heat but for
+    // the swing of the bed's energy between avalanches, 4 mJ, which is little against what goes in within 8 s.
+    constexpr double rate = 0.313, begin = 3.0, end = 11.0;
+    auto s = open_scene("drum", {"time.duration=11", "sensor.surface.from=3", "sensor.drive.from=3"});
     run_until(s, begin);
     const double energy_before = kinetic_energy(s.state) + potential_energy(s.state, s.model.gravity);
     double work = 0.0;
@@ -127,7 +127,7 @@ TEST_CASE(
         const double before = mean_velocity(s);
         run_until(s, 6.0);
         WARN("33 degrees: " << before << " m/s at 3 s, " << mean_velocity(s) << " at 6 s");
-        CHECK(mean_velocity(s) > before + 1.0);
+        CHECK(mean_velocity(s) > 1.1 * before);
     }
 }
 
