@@ -211,7 +211,6 @@ void RunLoop::write_what_is_due(const StepReport& report)
     }
     if (contact_schedule_.due(time)) write_contacts();
     if (particle_schedule_.due(time)) {
-        if (simulation_.model.physics.moving_walls) write_walls();
         write_particles();
         progress_.frame_written(simulation_, report, clock_.wall());
     }
@@ -220,10 +219,7 @@ void RunLoop::write_what_is_due(const StepReport& report)
 void RunLoop::write_the_rest(const StepReport& report)
 {
     const std::int64_t steps = simulation_.state.steps;
-    if (last_particles_ != steps) {
-        if (simulation_.model.physics.moving_walls) write_walls();
-        write_particles();
-    }
+    if (last_particles_ != steps) write_particles();
     if (steps == 0) return; // contacts and metrics speak of a step
     if (last_contacts_ != steps && !stops_the_run(report)) write_contacts();
     if (last_metrics_ != steps) {
@@ -263,6 +259,7 @@ void RunLoop::write_tables()
 void RunLoop::write_particles()
 {
     frames_.write_particles(simulation_);
+    if (simulation_.model.physics.moving_walls) frames_.write_moving_walls(simulation_.model, simulation_.state.time);
     last_particles_ = simulation_.state.steps;
 }
 

@@ -161,11 +161,21 @@ void FrameWriter::write_contacts(const Simulation& simulation)
 
 void FrameWriter::write_walls(const Model& model, double time)
 {
+    add_walls_frame(walls_, model, time, false);
+}
+
+void FrameWriter::write_moving_walls(const Model& model, double time)
+{
+    add_walls_frame(moving_walls_, model, time, true);
+}
+
+void FrameWriter::add_walls_frame(Series& series, const Model& model, double time, bool moving)
+{
     std::vector<Vec3> vertices;
     std::vector<std::size_t> wall_of_triangle;
     vtkNew<vtkCellArray> cells;
     for (std::size_t wall = 0; wall < model.walls.size(); ++wall) {
-        if (!model.walls[wall].stands_at(time)) continue;
+        if (!model.walls[wall].stands_at(time) || model.walls[wall].motion.empty() == moving) continue;
         const TriangleSoup surface = wall_surface(model.walls[wall].shape, model.world);
         const Pose pose = pose_at(model.walls[wall].motion, time);
         const auto first = static_cast<vtkIdType>(vertices.size());
@@ -180,7 +190,7 @@ void FrameWriter::write_walls(const Model& model, double time)
     geometry->SetPolys(cells);
     add_integers(
         *geometry->GetCellData(), "wall", wall_of_triangle.size(), [&](std::size_t k) { return wall_of_triangle[k]; });
-    add_frame(walls_, time, *geometry);
+    add_frame(series, time, *geometry);
 }
 
 void FrameWriter::add_frame(Series& series, double time, vtkPolyData& geometry)
@@ -202,7 +212,7 @@ void FrameWriter::write_list(const Series& series) const
 
 void FrameWriter::cut_back() const
 {
-    for (const Series* series : {&particles_, &contacts_, &walls_}) cut_back(*series);
+    for (const Series* series : {&particles_, &contacts_, &walls_, &moving_walls_}) cut_back(*series);
 }
 
 void FrameWriter::cut_back(const Series& series) const

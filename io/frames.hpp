@@ -32,12 +32,18 @@ public:
     /// @throws OutputError
     void write_contacts(const Simulation& simulation);
 
-    /// The walls that stand at this time, as triangles with the wall's index. Planes are drawn as large as the world.
+    /// The walls that stand at this time and do not move, as triangles with the wall's index. Planes are drawn as large
+    /// as the world.
     /// @throws OutputError
     void write_walls(const Model& model, double time);
 
+    /// Likewise those that move, which have a series of their own, or a large wall that stands still would be written
+    /// again and again.
+    /// @throws OutputError
+    void write_moving_walls(const Model& model, double time);
+
     /// Stores or puts back the times of the frames written so far.
-    void persist(Archive& archive) { archive(particles_.times, contacts_.times, walls_.times); }
+    void persist(Archive& archive) { archive(particles_.times, contacts_.times, walls_.times, moving_walls_.times); }
 
     /// Removes the frames that came after those known here, and lists these anew: for a run that is resumed.
     /// @throws OutputError
@@ -49,8 +55,10 @@ private:
         std::vector<double> times; ///< of its frames [s]
     };
     std::filesystem::path folder_;
-    Series particles_{"particles", {}}, contacts_{"contacts", {}}, walls_{"walls", {}};
+    Series particles_{"particles", {}}, contacts_{"contacts", {}}, walls_{"walls", {}},
+        moving_walls_{"moving_walls", {}};
 
+    void add_walls_frame(Series& series, const Model& model, double time, bool moving);
     void add_frame(Series& series, double time, vtkPolyData& geometry);
     void write_list(const Series& series) const;
     void cut_back(const Series& series) const;

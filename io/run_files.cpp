@@ -40,7 +40,7 @@ bool is_output_of_a_run(const std::string& name)
 {
     if (name.starts_with(profile_prefix) && (name.ends_with(".csv") || name.ends_with(".csv.tmp"))) return true;
     constexpr std::array<std::string_view, 4> files = {"metrics.csv", "summary.json", "lost.vtp", marker};
-    constexpr std::array<std::string_view, 4> series = {"particles", "contacts", "walls", "checkpoint"};
+    constexpr std::array<std::string_view, 5> series = {"particles", "contacts", "walls", "moving_walls", "checkpoint"};
     for (const std::string_view file : files)
         if (name == file || name == fmt::format("{}.tmp", file)) return true;
     for (const std::string_view one : series)

@@ -56,7 +56,7 @@ class Run:
             raise RunError(f"{path} is damaged: {error}.") from error
 
     def frames(self, series="particles"):
-        """The frames of particles, contacts or walls in order of time; empty where the run wrote none."""
+        """The frames of particles, contacts, walls or moving_walls in order of time; empty where the run wrote none."""
         path = self.folder / f"{series}.pvd"
         if not path.is_file():
             return []

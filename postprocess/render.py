@@ -20,6 +20,7 @@ try:
     import numpy
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkCommonDataModel import vtkPolyData
+    from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 except ImportError as error:
     print(f"render.py: {error}: apt install python3-vtk9 python3-numpy, and use /usr/bin/python3.", file=sys.stderr)
     sys.exit(2)
@@ -148,10 +149,16 @@ def box_corners(points):
     return numpy.array(numpy.meshgrid(*zip(points.min(axis=0), points.max(axis=0)))).reshape(3, 8).T
 
 
-def walls_at(wall_frames, time):
-    """The walls that stand at that time."""
-    standing = [frame for frame in wall_frames if frame.time <= time + 1e-9]
-    return read_frame(standing[-1]) if standing else vtkPolyData()
+def walls_at(run, time):
+    """The walls that stand at that time, where they are then."""
+    all_walls = vtkAppendPolyData()
+    all_walls.AddInputData(vtkPolyData())
+    for series in ("walls", "moving_walls"):
+        frames = [frame for frame in run.frames(series) if frame.time <= time + 1e-9]
+        if frames and (walls := read_frame(frames[-1])).GetNumberOfCells():
+            all_walls.AddInputData(walls)
+    all_walls.Update()
+    return all_walls.GetOutput()
 
 
 def common_setting(run, frames, arguments):
@@ -163,7 +170,7 @@ def common_setting(run, frames, arguments):
     values = numpy.concatenate([colour_values(grains, arguments.color_by) for grains in surveyed])
 
     drawn = room if len(frames) > 1 else grain_corners(read_frame(frames[0]))
-    walls = walls_at(run.frames("walls"), frames[0].time)
+    walls = walls_at(run, frames[0].time)
     points = numpy.concatenate([drawn, wall_corners(walls, LARGE_WALL * diagonal(room) if len(room) else numpy.inf)])
     points = box_corners(points if len(points) else numpy.array([[-1.0] * 3, [1.0] * 3]))
     size = arguments.size or picture.fitting_size(arguments.view, points)
@@ -173,7 +180,6 @@ def common_setting(run, frames, arguments):
 def render(run, frames, arguments):
     """Writes the pictures and prints their names."""
     setting = common_setting(run, frames, arguments)
-    walls = run.frames("walls")
     if arguments.all:
         folder = arguments.output or run.folder / "pictures"
         folder.mkdir(parents=True, exist_ok=True)
@@ -184,7 +190,7 @@ def render(run, frames, arguments):
         grains = read_frame(frame)
         values = colour_values(grains, arguments.color_by)
         title = f"{run.title()},  t = {frame.time:.3f} s"
-        picture.write_picture(path, grains, values, walls_at(walls, frame.time), title, setting)
+        picture.write_picture(path, grains, values, walls_at(run, frame.time), title, setting)
         print(path)
 
 

@@ -26,13 +26,13 @@ TEST_CASE("the .pvd lists every frame with its time and relative file", "[frames
 TEST_CASE("a resumed run takes away the frames after its checkpoint", "[frames]")
 {
     const SceneFolder folder;
-    State state;
+    const Simulation simulation;
     FrameWriter frames(folder.path());
-    frames.write_particles(state);
+    frames.write_particles(simulation);
     Archive stored;
     stored(frames);
     const std::string list = read_file(folder.path() / "particles.pvd");
-    for (int k = 0; k < 3; ++k) frames.write_particles(state);
+    for (int k = 0; k < 3; ++k) frames.write_particles(simulation);
     frames.write_walls(Model(), 0.0);
 
     FrameWriter resumed(folder.path());
