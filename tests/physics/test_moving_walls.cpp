@@ -183,9 +183,8 @@ TEST_CASE("a sphere that does not turn rests in a turning drum at the angle of f
 
 TEST_CASE("rolling resistance at a turning wall is against the spin relative to it", "[moving_walls][rolling]")
 {
-    // A sphere on the axis of a turning plate: no slip, and no row resists spin about the normal. With the plate
-    // turning about an axis in it, the sphere in the axis is spun up through the rolling row: ω grows by μ_r r N / I
-    // until it has the plate's.
+    // A sphere on the axis of a turning plate: no slip, and no row resists spin about the normal. On a plate that turns
+    // about an axis in its plane the sphere that turns along feels no resistance, one that does not feels all of it.
     const double rate = 20.0, rolling = 0.02;
     World world = make_world({.friction = 1.0, .rolling_friction = rolling}, rigid_settings(), 1e-5);
     world.add_wall(
@@ -214,9 +213,8 @@ TEST_CASE("rolling resistance at a turning wall is against the spin relative to 
 TEST_CASE("torque times rate and force times velocity are what walls put in, and dissipation is never negative",
     "[moving_walls][energy]")
 {
-    // Beads without restitution in a drum that turns and a box that is lifted: of rigid contacts,
-    // ΔT + ΔU of a step = work of the walls − dissipation, where the potential energy follows the mean velocity of the
-    // step: h m g·v + ½ ... with v of the end of the step the remainder is ½ m h² g² at most, made exact below.
+    // Beads without restitution in a drum that turns and is lifted, with rigid contacts. In every step
+    // work of gravity + work of the walls = change of the kinetic energy + what contacts dissipate.
     const bool spin = GENERATE(true, false);
     const double rate = 12.0;
     World world =
