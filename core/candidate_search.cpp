@@ -289,7 +289,7 @@ std::vector<std::uint8_t> walls_to_search(
     for (std::size_t w = 0; w < walls.size(); ++w) {
         if (!walls[w].moves()) continue;
         if (!network.listed_pose.empty()) {
-            const double way = longest_way(network.listed_pose[w], walls[w].pose(), network.listed_around);
+            const double way = walls[w].way_since(network.listed_pose[w], network.listed_around);
             const double ahead = closing_horizon * model.time_step * walls[w].fastest(network.listed_around);
             if (way + ahead <= wall_skin * model.min_diameter) continue;
         }

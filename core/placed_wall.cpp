@@ -24,6 +24,15 @@ std::vector<Vec3> images_of(const Shape& shape, const Periodicity& periodicity)
     return periodicity.neighbor_shifts();
 }
 
+/// The whole cells by which a wall that moves along a periodic axis for ever is put back: of all its images, the one
+/// whose middle is nearest to where the wall began is the first.
+Vec3 way_back(const Shape& shape, const Periodicity& periodicity, const Pose& pose)
+{
+    if (!periodicity.any() || std::holds_alternative<Plane>(shape)) return Vec3::Zero();
+    const Vec3 middle = bounds(shape).center();
+    return periodicity.shift_towards(pose(middle), middle);
+}
+
 } // namespace
 
 PlacedWall::PlacedWall(const Wall& wall, const Periodicity& periodicity, double time, double step)
@@ -31,9 +40,15 @@ PlacedWall::PlacedWall(const Wall& wall, const Periodicity& periodicity, double 
       stands_(wall.stands_at(time))
 {
     if (wall.motion.empty()) return;
+    const auto first_image = [&](Pose pose, const Vec3& cells) {
+        pose.shift += cells;
+        return pose;
+    };
     pose_ = pose_at(wall.motion, time);
+    const Vec3 cells = way_back(wall.shape, periodicity, pose_);
+    pose_ = first_image(pose_, cells);
     back_ = pose_.inverse();
-    if (step > 0.0) twist_ = twist_between(pose_, pose_at(wall.motion, time + step), step);
+    if (step > 0.0) twist_ = twist_between(pose_, first_image(pose_at(wall.motion, time + step), cells), step);
 }
 
 WallPoint PlacedWall::nearest_point(std::size_t patch, const Vec3& x) const
@@ -73,9 +88,18 @@ double PlacedWall::gap(const Vec3& center, double radius, double within) const
 
 double PlacedWall::fastest(const Box& box) const
 {
+    if (twist_.spin.isZero(0.0)) return twist_.velocity.norm();
     double speed = 0.0;
-    for (const Vec3& x : corners(box)) speed = std::max(speed, twist_.at(x).norm());
+    for (const Vec3& image : images_)
+        for (const Vec3& x : corners(box)) speed = std::max(speed, twist_.at(x - image).norm());
     return speed;
+}
+
+double PlacedWall::way_since(const Pose& before, const Box& box) const
+{
+    double longest = 0.0;
+    for (const Vec3& image : images_) longest = std::max(longest, longest_way(before, pose_, box.shifted(-image)));
+    return longest;
 }
 
 std::vector<PlacedWall> place_walls(

@@ -20,7 +20,7 @@ public:
     PlacedWall(const Wall& wall, const Periodicity& periodicity, double time, double step = 0.0);
 
     const Wall& wall() const { return *wall_; }
-    const Pose& pose() const { return pose_; }
+    const Pose& pose() const { return pose_; } ///< of the first image
     bool stands() const { return stands_; }
     bool moves() const { return !wall_->motion.empty(); }
 
@@ -39,8 +39,11 @@ public:
     Vec3 velocity(std::size_t patch, const Vec3& x) const { return twist_.at(x - images_[patch / shape_patches_]); }
     const Vec3& spin() const { return twist_.spin; } ///< likewise [rad/s]
 
-    /// The fastest that its material moves anywhere in the box [m/s].
+    /// The fastest that the material of any image moves anywhere in the box [m/s].
     double fastest(const Box& box) const;
+
+    /// The longest way that the material of any image has made in the box since the wall stood at `before` [m].
+    double way_since(const Pose& before, const Box& box) const;
 
 private:
     const Wall* wall_;

@@ -2,6 +2,7 @@
 #include "io/frames.hpp"
 
 #include "core/loaded_contacts.hpp"
+#include "core/placed_wall.hpp"
 #include "core/sphere_load.hpp"
 #include "io/input_error.hpp"
 #include "io/poly_data.hpp"
@@ -177,7 +178,7 @@ void FrameWriter::add_walls_frame(Series& series, const Model& model, double tim
     for (std::size_t wall = 0; wall < model.walls.size(); ++wall) {
         if (!model.walls[wall].stands_at(time) || model.walls[wall].motion.empty() == moving) continue;
         const TriangleSoup surface = wall_surface(model.walls[wall].shape, model.world);
-        const Pose pose = pose_at(model.walls[wall].motion, time);
+        const Pose pose = PlacedWall(model.walls[wall], model.periodicity, time).pose();
         const auto first = static_cast<vtkIdType>(vertices.size());
         for (const Vec3& vertex : surface.vertices) vertices.push_back(pose(vertex));
         for (const auto& [a, b, c] : surface.triangles) {

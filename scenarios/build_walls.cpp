@@ -64,13 +64,23 @@ WallMotion build_motion(const scene::WallTable& table, std::size_t index)
     return motion;
 }
 
-/// A plane is as wide as the world and its own image, so it must not cross a periodic axis.
-void require_seamless(const Shape& shape, const Periodicity& periodicity, const std::string& key)
+/// A plane is as wide as the world and its own image, so it must not cross a periodic axis, nor turn so that it does.
+void require_seamless(const Wall& wall, const Periodicity& periodicity, std::size_t index)
 {
-    const auto* plane = std::get_if<Plane>(&shape);
-    for (int d = 0; plane && d < 3; ++d)
-        if (periodicity.along(d) && std::abs(plane->normal[d]) > 1e-9)
-            throw SceneError(key, "a plane across a periodic axis would cut every image; use another shape");
+    const auto* plane = std::get_if<Plane>(&wall.shape);
+    for (int d = 0; plane && d < 3; ++d) {
+        if (!periodicity.along(d)) continue;
+        if (std::abs(plane->normal[d]) > 1e-9)
+            throw SceneError(key_path("wall", index, "normal"),
+                "a plane across a periodic axis would cut every image; use another shape");
+        for (std::size_t k = 0; k < wall.motion.size(); ++k) {
+            const auto* turning = std::get_if<Turning>(&wall.motion[k]);
+            if (turning && turning->axis.cross(plane->normal).norm() > 1e-9 &&
+                turning->axis.cross(Vec3::Unit(d)).norm() > 1e-9)
+                throw SceneError(key_path("wall", index, table_path("motion", k) + ".axis"),
+                    "a plane that turns about this axis would come to cut every image; use another shape");
+        }
+    }
 }
 
 } // namespace
@@ -82,8 +92,8 @@ std::vector<Wall> build_walls(const scene::Scene& scene, const Materials& materi
         const auto& w = scene.wall[k];
         const int material = material_index(materials, w.material, key_path("wall", k, "material"));
         auto shape = build_shape(w, k);
-        require_seamless(shape, periodicity, key_path("wall", k, "normal"));
         walls.push_back({w.name, std::move(shape), material, w.appear_at, w.remove_at, build_motion(w, k)});
+        require_seamless(walls.back(), periodicity, k);
     }
     return walls;
 }

@@ -78,6 +78,27 @@ double fall_height(const Simulation& simulation)
     return std::max(0.0, highest - lowest);
 }
 
+/// When to look how fast a wall is: evenly over the run but for a jitter, so that no shake is always seen at its ends,
+/// and where a part or a line of a table begins, however short it is.
+std::vector<double> times_to_look(const WallMotion& motion, double duration)
+{
+    constexpr int samples = 1000;
+    std::vector<double> times;
+    for (int k = 0; k < samples; ++k) times.push_back(duration / samples * (k + std::fmod(0.618034 * k, 1.0)));
+    for (const auto& part : motion) {
+        if (const auto* course = std::get_if<Course>(&part))
+            for (const auto& waypoint : course->waypoints) times.push_back(waypoint.time);
+        else if (const auto* translation = std::get_if<Translation>(&part))
+            times.push_back(translation->span.from);
+        else if (const auto* turning = std::get_if<Turning>(&part))
+            times.push_back(turning->span.from);
+        else
+            times.push_back(std::get<Shaking>(part).span.from);
+    }
+    std::erase_if(times, [&](double time) { return !(time < duration); });
+    return times;
+}
+
 /// Of any point of a moving wall, as far as it lies where spheres may be [m/s].
 double fastest_wall(const Simulation& simulation)
 {
@@ -85,18 +106,19 @@ double fastest_wall(const Simulation& simulation)
     double fastest = 0.0;
     for (const auto& wall : model.walls) {
         if (wall.motion.empty()) continue;
-        constexpr int samples = 1000;
-        const double step = simulation.duration / samples;
+        // Short against the time between two looks: a shake must not cancel out.
+        const double moment = 1e-5 * simulation.duration;
+        // A plane is looked at where the spheres are, any other wall at the corners of its box, which move with it.
+        const bool endless = bounds(wall.shape).empty();
         Box box = bounds(wall.shape);
-        if (box.empty())
+        if (endless)
             for (std::size_t i = 0; i < simulation.state.count(); ++i) box.extend(simulation.state.position[i]);
         if (box.empty()) continue;
-        // Over a hundredth of the time between two samples: a shake must not cancel out.
-        for (int k = 0; k < samples; ++k) {
-            const double time = step * k;
-            const auto pose = pose_at(wall.motion, time);
-            fastest = std::max(fastest,
-                longest_way(pose, pose_at(wall.motion, time + 0.01 * step), placed(pose, box)) / (0.01 * step));
+        for (const double time : times_to_look(wall.motion, simulation.duration)) {
+            const Pose now = pose_at(wall.motion, time), later = pose_at(wall.motion, time + moment);
+            const double way =
+                endless ? longest_way(now, later, box) : longest_way(Pose{}, now.inverse().after(later), box);
+            fastest = std::max(fastest, way / moment);
         }
     }
     return fastest;

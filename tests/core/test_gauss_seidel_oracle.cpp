@@ -14,11 +14,13 @@ namespace
 
 /// A small heap in a box in the middle of its collapse: sizes 1 : 3, resting and open contacts with spheres and walls,
 /// impulses carried from the steps before.
-World collapsing_heap(const ContactLaw& law, const SolverSettings& solver)
+World collapsing_heap(
+    const ContactLaw& law, const SolverSettings& solver, const WallMotion& motion = {}, bool spin = true)
 {
     World world = make_world(law, solver, 5e-4);
+    world.model.physics.spin = world.model.physics.spin && spin;
     const double edge = 8 * standard_radius;
-    world.add_wall(box_panels({Vec3::Zero(), Vec3(edge, edge, 8 * edge)}, {"z+"}));
+    world.add_wall(box_panels({Vec3::Zero(), Vec3(edge, edge, 8 * edge)}, {"z+"}), motion);
     Random random(11);
     const auto anywhere = [&](double size) {
         const double x = uniform(random);
@@ -28,7 +30,8 @@ World collapsing_heap(const ContactLaw& law, const SolverSettings& solver)
     for (int k = 0; k < 54; ++k) {
         const Vec3 place(k % 3 + 0.35, k / 3 % 3 + 0.35, k / 9 + 0.35);
         const double radius = standard_radius * (0.4 + 0.8 * uniform(random));
-        world.add_sphere(edge / 3 * place + anywhere(0.3 * edge / 3), anywhere(0.5), anywhere(100.0), radius);
+        world.add_sphere(edge / 3 * place + anywhere(0.3 * edge / 3), anywhere(0.5),
+            spin ? anywhere(100.0) : Vec3::Zero().eval(), radius);
     }
     world.step(240);
     world.add_sphere(
@@ -51,6 +54,10 @@ std::vector<DenseContact> dense_contacts(const ContactNetwork& network)
         dense.a = static_cast<std::size_t>(contact.a);
         dense.b = with_wall ? 0 : static_cast<std::size_t>(contact.b);
         dense.with_wall = with_wall;
+        if (with_wall && !arrays.wall.empty()) {
+            dense.wall_velocity = arrays.wall[k].velocity;
+            dense.wall_spin = arrays.wall[k].spin;
+        }
         dense.normal = contact.normal;
         dense.target = contact.target;
         dense.compliance = arrays.terms[k].compliance;
@@ -101,6 +108,9 @@ Difference compare(const ContactNetwork& network, const State& state, const Dens
     return worst;
 }
 
+/// Solves the next step of this world both ways.
+void check_against_oracle(World& world, int sweeps);
+
 ContactLaw contact_law(double friction, double rolling_friction, double restitution)
 {
     ContactLaw law;
@@ -122,7 +132,45 @@ TEST_CASE(
     const auto stabilisation = GENERATE(Stabilisation::matched, Stabilisation::projected);
     const int sweeps = GENERATE(1, 2, 9);
     World world = collapsing_heap(law, production_settings(stabilisation));
+    check_against_oracle(world, sweeps);
+}
 
+TEST_CASE("at moving walls, and without spin, the kernel gives those of Algorithm 3.1 too", "[gauss_seidel][oracle]")
+{
+    // The box turns slowly and shakes: walls with a velocity of their own everywhere, and a spin.
+    const Vec3 middle = Vec3(4, 4, 0) * standard_radius;
+    const WallMotion motion = {
+        Turning{{}, middle, Vec3(0.36, 0.48, 0.8), 0.8}, Shaking{{}, Vec3(0.0004, 0, 0.0003), 40.0}};
+    const auto stabilisation = GENERATE(Stabilisation::matched, Stabilisation::projected);
+    const int sweeps = GENERATE(1, 2, 9);
+    SECTION("walls that move, rolling resistance")
+    {
+        World world = collapsing_heap(contact_law(0.6, 0.1, 0.3), production_settings(stabilisation), motion);
+        check_against_oracle(world, sweeps);
+    }
+    SECTION("walls that move, no friction")
+    {
+        World world = collapsing_heap(contact_law(0, 0, 0.3), production_settings(stabilisation), motion);
+        check_against_oracle(world, sweeps);
+    }
+    SECTION("no spin")
+    {
+        World world = collapsing_heap(contact_law(0.4, 0, 0.3), production_settings(stabilisation), {}, false);
+        check_against_oracle(world, sweeps);
+        for (const Motion& m : world.state.motion) CHECK(m.rim_velocity == Vec3::Zero());
+    }
+    SECTION("walls that move, no spin")
+    {
+        World world = collapsing_heap(contact_law(0.4, 0, 0), production_settings(stabilisation), motion, false);
+        check_against_oracle(world, sweeps);
+    }
+}
+
+namespace
+{
+
+void check_against_oracle(World& world, int sweeps)
+{
     // The beginning of the next step, as `advance` does it.
     const Model& model = world.model;
     world.update_candidates();
@@ -134,7 +182,8 @@ TEST_CASE(
     REQUIRE(has_kind(world.contacts, ContactKind::resting));
     REQUIRE(has_kind(world.contacts, ContactKind::impact) == model.physics.restitution);
 
-    auto dense = make_dense_problem(world.state, contacts);
+    // Without friction no row has spin either.
+    auto dense = make_dense_problem(world.state, contacts, model.physics.spin);
     const Eigen::VectorXd warm_impulse = dense.impulse;
     REQUIRE(warm_impulse.norm() > 0);
     warm_start(dense);
@@ -154,5 +203,7 @@ TEST_CASE(
     CHECK(report.sweeps == sweeps);
     CHECK(report.residual == within(1e-9, residual(dense, warm_impulse)));
 }
+
+} // namespace
 
 } // namespace talus::test

@@ -155,3 +155,33 @@ TEST_CASE("without samples in the window the flow is not a number, and nothing h
     CHECK(std::isnan(sensor.results()[0].value));
     CHECK(std::isnan(sensor.results()[0].spread));
 }
+
+TEST_CASE("across a periodic axis a uniform flow is its mass times speed over the length of the cell",
+    "[mass_flow][periodicity]")
+{
+    // Σ m v / L, though no sphere is ever behind the plane for good; against the flow it is negative.
+    Model model;
+    model.periodicity.length.x() = 0.2;
+    model.time_step = 1e-3;
+    State state;
+    for (int i = 0; i < 7; ++i) add_sphere(state, Vec3(0.02 * i, 0, 0), radius, density, 0, Vec3(0.5, 3.0, 0));
+    const double mass = 7 * state.mass(0);
+    const auto flow_along = [&](const Vec3& normal) {
+        MassFlow sensor("flow", Vec3(0.07, 0, 0), normal, 0.1, 0.9);
+        const ContactNetwork no_contacts;
+        const StepReport no_step;
+        for (state.steps = 1; state.steps <= 1000; ++state.steps) {
+            state.time = static_cast<double>(state.steps) * model.time_step;
+            for (auto& x : state.position) x = model.periodicity.wrapped(x + model.time_step * Vec3(0.5, 3.0, 0));
+            sensor.watch({state, model, no_contacts, no_step});
+            if (state.steps % 5 == 0) sensor.sample({state, model, no_contacts, no_step});
+        }
+        CHECK(sensor.latest()[0].value == Approx(normal.x() * mass * 0.5 * 1.0 / 0.2));
+        return sensor.results();
+    };
+    const auto forwards = flow_along(Vec3::UnitX()), backwards = flow_along(-Vec3::UnitX());
+    CHECK(forwards[0].value == Approx(mass * 0.5 / 0.2));
+    CHECK(forwards[1].value == Approx(7 * 0.5 / 0.2));
+    CHECK(forwards[0].spread < 1e-9 * forwards[0].value);
+    CHECK(backwards[0].value == Approx(-forwards[0].value));
+}

@@ -15,7 +15,10 @@ step = 1e-4
 duration = 3
 frame_interval = inf
 [world]
+min = [0, -1, -inf]
 max = [1, 1, inf]
+periodic = ["x"]
+rotation = false
 [solver]
 tolerance = "fine"
 [output]
@@ -94,6 +97,39 @@ name = "load"
 kind = "wall_force"
 wall = "box"
 point = [0, 0, 1]
+[[wall]]
+name = "bed"
+shape = "grains"
+material = "glass"
+diameter = 0.02
+spacing = 1.25
+max = [1, 1, 0]
+[[wall.motion]]
+kind = "shake"
+amplitude = [0, 0, 0.001]
+frequency = 30
+from = 0.5
+[[wall.motion]]
+kind = "turn"
+point = [0.1, 0.2, 0.3]
+axis = [0, 1, 0]
+rate = -0.3333333333333333
+to = 2
+[[wall]]
+name = "lid"
+shape = "plane"
+material = "glass"
+[[wall.motion]]
+kind = "translate"
+velocity = [0, 0, -0.1]
+[[wall.motion]]
+kind = "table"
+table = [[0, 0, 0, 0], [0.1, 0, 0, 0.3333333333333333]]
+[[sensor]]
+name = "surface"
+kind = "slope"
+along = [1, 0, 0]
+length = 0.5
 )";
 
 /// An ASCII STL file.

@@ -193,3 +193,19 @@ TEST_CASE("a species is a table with all its keys", "[scene_reader]")
           "scene.toml:4:54: 'share' must be a number above 0, not 0");
     CHECK(refusal("fill", "0.5") == "scene.toml:4:11: 'species' must be a list of tables [[fill.species]], not 0.5");
 }
+
+TEST_CASE("a motion's kind, keys and table are checked where they stand", "[scene_reader]")
+{
+    const std::string wall = "[[wall]]\nname = 'w'\nmaterial = 'a'\nshape = 'plane'\n[[wall.motion]]\n";
+    CHECK(refusal_of(wall + "kind = 'spin'\n") ==
+          "scene.toml:6:8: 'kind' must be 'translate', 'turn', 'shake' or 'table', not the string 'spin'");
+    CHECK(refusal_of(wall + "kind = 'turn'\nrate = 1\n") ==
+          "scene.toml:5:3: [[motion]] needs the key 'axis' (direction of the axis)");
+    const std::string rows = "'table' must be rows of four numbers [time, x, y, z], not ";
+    CHECK(refusal_of(wall + "kind = 'table'\ntable = [[0, 0, 0]]\n") == "scene.toml:7:10: " + rows + "an array of 3");
+    CHECK(refusal_of(wall + "kind = 'table'\ntable = [[0, 0, 0, 'up']]\n") ==
+          "scene.toml:7:20: " + rows + "the string 'up'");
+    CHECK(refusal_of(wall + "kind = 'table'\ntable = 3\n") == "scene.toml:7:9: " + rows + "3");
+    CHECK(refusal_of("[world]\nperiodic = ['w']\n").starts_with("scene.toml:2:13: 'periodic' must be "));
+    CHECK(refusal_of("[world]\nrotation = 0\n").starts_with("scene.toml:2:12: 'rotation' must be "));
+}

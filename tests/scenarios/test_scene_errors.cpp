@@ -46,7 +46,7 @@ const std::vector<Mistake> of_materials = {
          s.contact.clear();
          s.materials.clear();
      },
-        "wall[0].material", "unknown material 'glass'; the scene has none"},
+        "fill[0].material", "unknown material 'glass'; the scene has none"},
     {[](S& s) { s.contact[0].between = {"glass"}; }, "contact[0].between", "'between' names two materials, here are 1"},
     {[](S& s) { s.contact.push_back(s.contact[0]); }, "contact[1].between",
         "the contact of glass and glass is given twice"},
@@ -86,6 +86,92 @@ const std::vector<Mistake> of_walls = {
     {add_wall("cone", [](auto& w) { w.height = 0.1; }), "wall[1].base_radius",
         "one of the radii of a cone must be given, and greater than 0"},
     {[](S& s) { s.wall.push_back(s.wall[0]); }, "wall[1].name", "two walls are called 'box'"},
+};
+
+/// Gives wall[0] a motion of one kind with what `set` sets.
+std::function<void(S&)> add_motion(const std::string& kind, std::function<void(scene::MotionTable&)> set)
+{
+    return [=](S& s) {
+        auto& motion = s.wall[0].motion.emplace_back();
+        motion.kind = kind;
+        set(motion);
+    };
+}
+
+/// Makes the world of the small scene repeat itself along these axes.
+std::function<void(S&)> repeat(
+    std::vector<std::string> axes, std::function<void(S&)> set = [](S&) {})
+{
+    return [=](S& s) {
+        s.world.min = Vec3(0, 0, -1);
+        s.world.max = Vec3(0.05, 0.05, 1);
+        s.world.periodic = axes;
+        set(s);
+    };
+}
+
+const std::vector<Mistake> of_motions = {
+    {add_motion("turn",
+         [](auto& m) {
+             m.rate = 1.0;
+             m.axis.setZero();
+         }),
+        "wall[0].motion[0].axis", "a direction must not be zero"},
+    {add_motion("translate",
+         [](auto& m) {
+             m.from = 2.0;
+             m.to = 1.0;
+         }),
+        "wall[0].motion[0].to", "'to' must not be before 'from'"},
+    {[](S& s) {
+         add_motion("translate", [](auto&) {})(s);
+         add_motion("table", [](auto&) {})(s);
+     },
+        "wall[0].motion[1].table", "'table' needs at least one row [time, x, y, z]"},
+    {add_motion("table",
+         [](auto& m) {
+             m.table = {{0.0, Vec3::Zero()}, {0.5, Vec3::UnitX()}, {0.5, Vec3::Zero()}};
+         }),
+        "wall[0].motion[0].table", "the times of 'table' must rise from row to row"},
+    {add_wall("grains",
+         [](auto& w) {
+             w.diameter = 0.01;
+             w.max.x() = -0.1;
+         }),
+        "wall[1].max", "no coordinate of 'min' may be above that of 'max'"},
+    {[](S& s) {
+         s.world.rotation = false;
+         s.contact[0].rolling_friction = 0.1;
+     },
+        "world.rotation",
+        "spheres that do not turn have no rolling resistance: leave out 'rolling_friction', or let them turn"},
+    {repeat({"x"}, [](S& s) { s.world.max.x() = infinity; }), "world.periodic",
+        "along the periodic axis x 'min' and 'max' must be given"},
+    {repeat({"y"}, [](S& s) { s.world.max.y() = 0.0399; }), "world.periodic",
+        "along the periodic axis y the world must be at least four diameters of the largest sphere"},
+    {repeat({"x", "y", "z"}), "world.periodic", "two axes may be periodic, not all three"},
+    {repeat({"x"}, add_wall("plane", [](auto& w) { w.normal = Vec3(0.1, 0, 1); })), "wall[1].normal",
+        "a plane across a periodic axis would cut every image; use another shape"},
+    {repeat({"x"}, add_wall("plane",
+                       [](auto& w) {
+                           auto& motion = w.motion.emplace_back();
+                           motion.kind = "turn";
+                           motion.axis = Vec3::UnitY();
+                           motion.rate = 1.0;
+                       })),
+        "wall[1].motion[0].axis",
+        "a plane that turns about this axis would come to cut every image; use another shape"},
+    {repeat({"x"},
+         [](S& s) {
+             s.sensor = {sensor("a", "mass_flow")};
+             s.sensor[0].normal = Vec3(1, 0, 1);
+         }),
+        "sensor[0].normal", "a plane must lie along a periodic axis or straight across it"},
+    {[](S& s) {
+         s.sensor = {sensor("a", "slope")};
+         s.sensor[0].along.setZero();
+     },
+        "sensor[0].along", "a direction must not be zero"},
 };
 
 const std::vector<Mistake> of_spheres = {
@@ -413,6 +499,10 @@ TEST_CASE("a scene with a mistake is not built, and the key and the reason are t
     SECTION("walls")
     {
         check_all(of_walls);
+    }
+    SECTION("motions, periodic axes, rotation, grains and slopes")
+    {
+        check_all(of_motions);
     }
     SECTION("spheres")
     {

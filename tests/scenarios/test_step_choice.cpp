@@ -139,3 +139,62 @@ TEST_CASE("rigid contacts are forecast to be rigid", "[step_choice]")
     scene.solver.stabilisation = "projected";
     CHECK_THAT(build_scene(scene).overlap_forecast, Contains("rigid"));
 }
+
+TEST_CASE("a wall that moves adds the speed of its fastest point to that of the fastest sphere", "[step_choice]")
+{
+    auto scene = small_scene();
+    scene.time.duration = 1.0;
+    const double still = choose_step(scene, build_scene(scene)).fastest_speed;
+    auto& motion = scene.wall[0].motion.emplace_back();
+    double expected = 0.0;
+    SECTION("one that is pushed")
+    {
+        motion.kind = "translate";
+        motion.velocity = Vec3(3.0, -4.0, 0);
+        expected = 5.0;
+    }
+    SECTION("one that is pushed for a while")
+    {
+        motion.kind = "translate";
+        motion.velocity = Vec3(0, 2.0, 0);
+        motion.from = 0.4;
+        motion.to = 0.6;
+        expected = 2.0;
+    }
+    SECTION("one that turns about an edge: the opposite one is fastest")
+    {
+        motion.kind = "turn";
+        motion.axis = Vec3::UnitZ();
+        motion.rate = 30.0;
+        expected = 30.0 * std::hypot(0.05, 0.05);
+    }
+    SECTION("one that is shaken")
+    {
+        motion.kind = "shake";
+        motion.amplitude = Vec3(0, 0.01, 0);
+        motion.frequency = 37.0;
+        expected = 0.01 * 2.0 * std::numbers::pi * 37.0;
+    }
+    SECTION("one that is shaken in time with any even sampling")
+    {
+        motion.kind = "shake";
+        motion.amplitude = Vec3(0, 0.001, 0);
+        motion.frequency = 1000.0;
+        motion.from = 0.00025;
+        expected = 0.001 * 2.0 * std::numbers::pi * 1000.0;
+    }
+    SECTION("one that is knocked for a ten-thousandth of the run")
+    {
+        motion.kind = "table";
+        motion.table = {{0.50005, Vec3::Zero()}, {0.50015, Vec3(0.0004, 0, 0)}};
+        expected = 4.0;
+    }
+    SECTION("one that follows a table")
+    {
+        motion.kind = "table";
+        motion.table = {{0.1, Vec3::Zero()}, {0.2, Vec3(0.3, 0, 0)}, {0.9, Vec3::Zero()}};
+        expected = 3.0;
+    }
+    // Its way makes the fall longer too where it goes down, not in these.
+    CHECK(choose_step(scene, build_scene(scene)).fastest_speed - still == Approx(expected).epsilon(0.01));
+}

@@ -54,6 +54,8 @@ void add_contact(DenseProblem& p, const State& state, const DenseContact& contac
     }
     fill_rows(p.jacobian, row, contact.a, -scale * state.radius(contact.a) * contact.normal, basis, 1.0);
     p.target[row] = contact.target;
+    p.drift.segment<contact_rows>(row) = basis.transpose() * contact.wall_velocity;
+    p.drift.segment<rolling_rows>(row + contact_rows) = basis.rightCols<rolling_rows>().transpose() * contact.wall_spin;
     p.compliance[row] = contact.compliance;
     p.impulse.segment<contact_rows>(row) = basis.transpose() * contact.impulse;
     p.impulse.segment<rolling_rows>(row + contact_rows) =
@@ -77,7 +79,8 @@ Eigen::VectorXd unconstrained_change(const DenseProblem& p, Index row, Index siz
     const Eigen::VectorXd sigma = p.compliance.segment(row, size);
     const Eigen::MatrixXd D = G * p.inverse_mass.asDiagonal() * G.transpose() + Eigen::MatrixXd(sigma.asDiagonal());
     const Eigen::VectorXd lambda = p.impulse.segment(row, size);
-    const Eigen::VectorXd r = G * p.velocity + sigma.cwiseProduct(lambda) - p.target.segment(row, size);
+    const Eigen::VectorXd r =
+        G * p.velocity - p.drift.segment(row, size) + sigma.cwiseProduct(lambda) - p.target.segment(row, size);
     return -D.inverse() * r;
 }
 
@@ -93,6 +96,7 @@ Eigen::VectorXd solved_contact(const DenseProblem& p, std::size_t k)
 Eigen::VectorXd solved_rolling(const DenseProblem& p, std::size_t k)
 {
     const Index row = first_row(k) + contact_rows;
+    if (p.rolling_reach[k] == 0.0) return Eigen::VectorXd::Zero(rolling_rows);
     const Eigen::VectorXd z = p.impulse.segment(row, rolling_rows) + unconstrained_change(p, row, rolling_rows);
     return on_disk(z, p.rolling_reach[k] * p.impulse[first_row(k)]);
 }
@@ -134,7 +138,7 @@ Vec3 DenseProblem::rolling_impulse_in_space(std::size_t k) const
     return basis[k].rightCols<rolling_rows>() * impulse.segment<rolling_rows>(first_row(k) + contact_rows);
 }
 
-DenseProblem make_dense_problem(const State& state, const std::vector<DenseContact>& contacts)
+DenseProblem make_dense_problem(const State& state, const std::vector<DenseContact>& contacts, bool spin)
 {
     DenseProblem p;
     const auto columns = 6 * static_cast<Index>(state.count());
@@ -144,12 +148,12 @@ DenseProblem make_dense_problem(const State& state, const std::vector<DenseConta
     for (std::size_t i = 0; i < state.count(); ++i) {
         const double inertia = 0.4 * state.mass(i) * state.radius(i) * state.radius(i);
         p.inverse_mass.segment<3>(6 * static_cast<Index>(i)).setConstant(1.0 / state.mass(i));
-        p.inverse_mass.segment<3>(6 * static_cast<Index>(i) + 3).setConstant(1.0 / inertia);
+        p.inverse_mass.segment<3>(6 * static_cast<Index>(i) + 3).setConstant(spin ? 1.0 / inertia : 0.0);
         p.velocity.segment<3>(6 * static_cast<Index>(i)) = state.motion[i].velocity;
         p.velocity.segment<3>(6 * static_cast<Index>(i) + 3) = state.angular_velocity(i);
     }
     p.jacobian = Eigen::MatrixXd::Zero(all_rows, columns);
-    p.compliance = p.target = p.impulse = Eigen::VectorXd::Zero(all_rows);
+    p.compliance = p.target = p.drift = p.impulse = Eigen::VectorXd::Zero(all_rows);
     for (std::size_t k = 0; k < contacts.size(); ++k) add_contact(p, state, contacts[k], k);
     return p;
 }

@@ -13,8 +13,10 @@ namespace talus::test
 /// A contact in the words of the note: what its rows of G, Σ, q and the cone are made of.
 struct DenseContact {
     std::size_t a = 0;
-    std::size_t b = 0;           ///< unused at a wall
-    bool with_wall = false;      ///< b is a wall: it does not move
+    std::size_t b = 0;                 ///< unused at a wall
+    bool with_wall = false;            ///< b is a wall: it moves as told below
+    Vec3 wall_velocity = Vec3::Zero(); ///< of the wall's material at the contact
+    Vec3 wall_spin = Vec3::Zero();
     Vec3 normal = Vec3::UnitZ(); ///< from b to a
     double target = 0.0;         ///< q_n
     double compliance = 0.0;     ///< Σ_n
@@ -33,12 +35,13 @@ struct DenseContact {
 struct DenseProblem {
     static constexpr Eigen::Index rows = 5; ///< of a contact
 
-    Eigen::MatrixXd jacobian;           ///< G
-    Eigen::VectorXd inverse_mass;       ///< diagonal of M⁻¹
-    Eigen::VectorXd compliance;         ///< diagonal of Σ
-    Eigen::VectorXd target;             ///< q
-    Eigen::VectorXd impulse;            ///< λ
-    Eigen::VectorXd velocity;           ///< v
+    Eigen::MatrixXd jacobian;     ///< G
+    Eigen::VectorXd inverse_mass; ///< diagonal of M⁻¹
+    Eigen::VectorXd compliance;   ///< diagonal of Σ
+    Eigen::VectorXd target;       ///< q
+    Eigen::VectorXd drift;        ///< what the rows see of the walls' motion: the relative velocity is G v − drift
+    Eigen::VectorXd impulse;      ///< λ
+    Eigen::VectorXd velocity;     ///< v
     std::vector<Eigen::Matrix3d> basis; ///< of each contact: normal and two tangents as columns
     std::vector<double> friction;       ///< μ of each contact
     std::vector<double> rolling_reach;
@@ -50,7 +53,8 @@ struct DenseProblem {
 
 /// The problem of these contacts with the velocities of `state` (v⁽¹⁾, gravity included) and without the warm start.
 /// Lever arms between spheres are their radii scaled so that they add up to the distance of the centres.
-DenseProblem make_dense_problem(const State& state, const std::vector<DenseContact>& contacts);
+/// @param spin whether spheres turn; where not, their inertia is infinite, and there is no rolling resistance
+DenseProblem make_dense_problem(const State& state, const std::vector<DenseContact>& contacts, bool spin = true);
 
 /// v ← v + M⁻¹ Gᵀ λ⁰, which the note's algorithms leave out though eq. (12) needs it.
 void warm_start(DenseProblem& problem);
