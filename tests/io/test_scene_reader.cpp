@@ -114,7 +114,7 @@ TEST_CASE("a key of another shape is refused with the shapes that have it and th
 {
     CHECK(refusal_of("[[wall]]\nname = 'w'\nmaterial = 'a'\nhole_radius = 1\nshape = 'plane'\n") ==
           "scene.toml:4:1: key 'hole_radius' in [[wall]] goes with shape 'disk', not 'plane', whose keys are 'name', "
-          "'shape', 'material', 'appear_at', 'remove_at', 'point' and 'normal'");
+          "'shape', 'material', 'appear_at', 'remove_at', 'motion', 'point' and 'normal'");
     CHECK(
         refusal_of("[[wall]]\nname = 'w'\nmaterial = 'a'\nradius = 1\n")
             .starts_with("scene.toml:4:1: key 'radius' in [[wall]] goes with shape 'cylinder' or 'disk', not 'mesh'"));
@@ -128,7 +128,7 @@ TEST_CASE("a key of another shape is refused with the shapes that have it and th
     CHECK(refusal_of("[[fill]]\nspacing = 1.2\narrangement = 'random'\n")
               .starts_with("scene.toml:2:1: key 'spacing' in [[fill]] goes with arrangement 'lattice', not 'random'"));
     CHECK(refusal_of("[[sensor]]\nname = 's'\nkind = 'repose'\nfrom = 1.0\n") ==
-          "scene.toml:4:1: key 'from' in [[sensor]] goes with kind 'mass_flow', 'region', 'profile' or "
+          "scene.toml:4:1: key 'from' in [[sensor]] goes with kind 'mass_flow', 'slope', 'region', 'profile' or "
           "'wall_force', not 'repose', whose keys are 'name', 'kind', 'base', 'inner_radius' and 'outer_radius'");
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("a motion's kind, keys and table are checked where they stand", "[scen
     CHECK(refusal_of(wall + "kind = 'spin'\n") ==
           "scene.toml:6:8: 'kind' must be 'translate', 'turn', 'shake' or 'table', not the string 'spin'");
     CHECK(refusal_of(wall + "kind = 'turn'\nrate = 1\n") ==
-          "scene.toml:5:3: [[motion]] needs the key 'axis' (direction of the axis)");
+          "scene.toml:5:1: [[wall.motion]] needs the key 'axis' (direction of the axis)");
     const std::string rows = "'table' must be rows of four numbers [time, x, y, z], not ";
     CHECK(refusal_of(wall + "kind = 'table'\ntable = [[0, 0, 0]]\n") == "scene.toml:7:10: " + rows + "an array of 3");
     CHECK(refusal_of(wall + "kind = 'table'\ntable = [[0, 0, 0, 'up']]\n") ==

@@ -61,7 +61,7 @@ TEST_CASE("the resolved scene has no key that its shapes lack", "[scene_file]")
 TEST_CASE("the keys in which two scenes differ are named", "[scene_file]")
 {
     const SceneFolder folder;
-    folder.write("funnel.stl", one_triangle);
+    write_named_files(folder);
     const scene::Scene before = read_scene(folder.write("scene.toml", full_scene)).scene;
     CHECK(changed_keys(before, parse_scene(resolved_scene(before))).empty());
 

@@ -82,14 +82,15 @@ private:
 
 TEST_CASE("a frame of the program reads back to the same spheres, to the precision of floats", "[sphere_file]")
 {
-    State state;
+    Simulation simulation;
+    State& state = simulation.state;
     Random random(1);
     const auto number = [&] { return 2.0 * uniform(random) - 1.0; };
     for (int i = 0; i < 100; ++i)
         add_sphere(state, Vec3(number(), number(), number()), 0.01 * (1.5 + number()), 2500.0, 0,
             Vec3(number(), number(), number()), Vec3(number(), number(), number()));
     const SceneFolder folder;
-    FrameWriter(folder.path()).write_particles(state);
+    FrameWriter(folder.path()).write_particles(simulation);
     const auto spheres = read_spheres(folder.path() / "frames/particles_000000.vtp");
     REQUIRE(spheres.positions.size() == 100);
     constexpr double float_precision = std::numeric_limits<float>::epsilon();
@@ -169,10 +170,11 @@ TEST_CASE("a VTK file with wrong numbers is refused with the point", "[sphere_fi
     CHECK(refusal_of("s.vtu", vtu(radii, "0 0 1 2 0 nan")).starts_with("s.vtu: "));
 
     // Not-a-number can be written in binary only.
-    State state;
+    Simulation simulation;
+    State& state = simulation.state;
     add_sphere(state, Vec3(0, 0, std::numeric_limits<double>::quiet_NaN()), 0.01, 2500.0, 0);
     const SceneFolder folder;
-    FrameWriter(folder.path()).write_particles(state);
+    FrameWriter(folder.path()).write_particles(simulation);
     const auto frame = folder.path() / "frames/particles_000000.vtp";
     CHECK(error_of<InputError>([&] { read_spheres(frame); }) ==
           frame.string() + ": the position of point 0 is not a finite number");
@@ -198,10 +200,11 @@ TEST_CASE("a file that VTK cannot read is refused with its reason on one line, a
 TEST_CASE("sizes that no file can have are refused", "[sphere_file]")
 {
     // A compressed array whose header says that it has more blocks than there can be.
-    State state;
+    Simulation simulation;
+    State& state = simulation.state;
     add_sphere(state, Vec3::Zero(), 0.01, 2500.0, 0);
     const SceneFolder folder;
-    FrameWriter(folder.path()).write_particles(state);
+    FrameWriter(folder.path()).write_particles(simulation);
     const auto frame = folder.path() / "frames/particles_000000.vtp";
     std::string bytes = read_file(frame);
     const std::size_t data = bytes.find("<AppendedData");
