@@ -3,6 +3,7 @@
 
 #include "core/contact.hpp"
 #include "core/state.hpp"
+#include "core/sweep_sums.hpp"
 
 #include <cmath>
 
@@ -21,19 +22,6 @@ template <bool with_friction, bool with_spin, bool with_rolling, bool with_movin
 struct SideRows {
     RollingRow* rolling = nullptr;
     const WallRow* wall = nullptr;
-};
-
-/// Sums for the stopping rule: Σ W|δ|² of the corrections and Σ W|λ|² of the impulses, rolling rows by their inertia.
-struct SweepSums {
-    double change = 0.0;
-    double size = 0.0;
-
-    SweepSums& operator+=(const SweepSums& other)
-    {
-        change += other.change;
-        size += other.size;
-        return *this;
-    }
 };
 
 /// Velocity u = G v of sphere a relative to b (or to the wall) at the contact [m/s]: in spheres' own terms

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/multibody/algorithm_3_1.hpp"
+
+namespace talus::multibody
+{
+
+template <class AnyIterate>
+ProjectedGaussSeidel<AnyIterate>::ProjectedGaussSeidel(const AnyIterate& x, LocalSolve local, double omega)
+    : blocks_(x, local), local_(local), omega_(omega)
+{
+}
+
+template <class AnyIterate>
+SweepSums ProjectedGaussSeidel<AnyIterate>::sweep(AnyIterate& x, const std::vector<std::size_t>& sequence)
+{
+    SweepSums sums;
+    for (const std::size_t k : sequence) {
+        const Constraint& constraint = x.constraints()[k];
+        const auto impulse = x.impulse().segment(constraint.first_row, constraint.rows);
+        y_.resize(constraint.rows);
+        x.residual_of(k, y_);
+        z_ = impulse;
+        solve_locally(local_, blocks_.local(constraint, k), y_, z_);
+        if (omega_ != 1.0) {
+            z_ = impulse + omega_ * (z_ - impulse);
+            project(constraint, z_);
+        }
+        const auto weight = blocks_.weight().segment(constraint.first_row, constraint.rows);
+        sums.size += weight.dot(z_.cwiseAbs2());
+        z_ -= impulse; // Δλ_k of (17)
+        sums.change += weight.dot(z_.cwiseAbs2());
+        x.add(k, z_); // v, and λ_k ← z, which the note's listing leaves out
+    }
+    return sums;
+}
+
+template <class AnyIterate>
+SolveReport solve_projected(AnyIterate& x, const SolveSettings& settings, const SweepObserver& observer)
+{
+    ProjectedGaussSeidel<AnyIterate> algorithm(x, settings.local, settings.omega);
+    return repeat_until_small(
+        settings, x.constraints().size(),
+        [&](const std::vector<std::size_t>& sequence) { return algorithm.sweep(x, sequence); },
+        [&] { return relative_size(algorithm.measure(x)); }, observer);
+}
+
+template class ProjectedGaussSeidel<Iterate>;
+template class ProjectedGaussSeidel<AssembledIterate>;
+template SolveReport solve_projected(Iterate&, const SolveSettings&, const SweepObserver&);
+template SolveReport solve_projected(AssembledIterate&, const SolveSettings&, const SweepObserver&);
+
+} // namespace talus::multibody

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/multibody/constraint.hpp"
+
+#include <algorithm>
+
+namespace talus::multibody
+{
+namespace
+{
+
+void project_on_disk(Eigen::Ref<Eigen::VectorXd> part, double radius)
+{
+    const double length = part.norm();
+    if (length > radius) part *= radius / length; // so that a part of length zero is never divided by
+}
+
+} // namespace
+
+void project(const Constraint& constraint, Eigen::Ref<Eigen::VectorXd> impulse)
+{
+    if (constraint.law == Law::unilateral) impulse = impulse.cwiseMax(0.0);
+    if (constraint.law != Law::contact) return;
+    impulse[0] = std::max(0.0, impulse[0]);
+    project_on_disk(impulse.segment<tangent_rows>(1), constraint.friction * impulse[0]);
+    if (constraint.rolls())
+        project_on_disk(impulse.segment<rolling_rows>(1 + tangent_rows), constraint.rolling_reach * impulse[0]);
+}
+
+double cone_violation(const Constraint& constraint, const Eigen::Ref<const Eigen::VectorXd>& impulse)
+{
+    switch (constraint.law) {
+    case Law::equality:
+        return 0.0;
+    case Law::unilateral:
+        return std::max(0.0, -impulse.minCoeff());
+    case Law::contact:
+        break;
+    }
+    double worst = std::max(0.0, -impulse[0]);
+    worst = std::max(worst, impulse.segment<tangent_rows>(1).norm() - constraint.friction * impulse[0]);
+    if (constraint.rolls())
+        worst = std::max(
+            worst, impulse.segment<rolling_rows>(1 + tangent_rows).norm() - constraint.rolling_reach * impulse[0]);
+    return worst;
+}
+
+} // namespace talus::multibody
