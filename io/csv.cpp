@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/csv.hpp"
 
+#include "io/finite_number.hpp"
 #include "io/input_error.hpp"
 #include "io/input_file.hpp"
 #include "io/nearest_name.hpp"
@@ -9,8 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 namespace talus
 {
@@ -100,12 +99,9 @@ void CsvTable::read_row(std::string_view text, std::size_t line)
     if (values.size() != names_.size())
         refuse(line, fmt::format("the header names {} columns, this line has {}", names_.size(), values.size()));
     for (const std::string_view value : values) {
-        const std::string_view digits = value.starts_with('+') ? value.substr(1) : value;
-        double number = 0.0;
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-        if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(number))
-            refuse(line, fmt::format("'{}' is not a finite number", shown(value)));
-        values_.push_back(number);
+        const auto number = finite_number(value);
+        if (!number) refuse(line, fmt::format("'{}' is not a finite number", shown(value)));
+        values_.push_back(*number);
     }
     lines_.push_back(line);
 }

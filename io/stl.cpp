@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/stl.hpp"
 
+#include "io/finite_number.hpp"
 #include "io/input_error.hpp"
 #include "io/input_file.hpp"
 
@@ -8,8 +9,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -71,12 +70,9 @@ private:
     double parse_coordinate()
     {
         const std::string_view word = required_word("a number");
-        const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
-        double number = 0.0;
-        const auto [end, error] = std::from_chars(digits.begin(), digits.end(), number);
-        if (error != std::errc() || end != digits.end() || !std::isfinite(number))
-            refuse(fmt::format("'{}' is not a finite number", shortened(word)));
-        return number;
+        const auto number = finite_number(word);
+        if (!number) refuse(fmt::format("'{}' is not a finite number", shortened(word)));
+        return *number;
     }
 
     void keyword(std::string_view wanted) { expect(required_word(fmt::format("'{}'", wanted)), wanted); }
