@@ -18,7 +18,7 @@ constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
 
 } // namespace
 
-std::string read_bytes(const std::filesystem::path& path, const std::string& kind)
+void require_file(const std::filesystem::path& path, const std::string& kind)
 {
     std::error_code error;
     if (!std::filesystem::exists(path, error)) throw InputError(fmt::format("{}: no such file", path.string()));
@@ -28,10 +28,14 @@ std::string read_bytes(const std::filesystem::path& path, const std::string& kin
     if (error || size > largest_file)
         throw InputError(fmt::format("{}: larger than the {} bytes that are read", path.string(), largest_file));
     if (size == 0) throw InputError(fmt::format("{}: the file is empty", path.string()));
+    if (!std::ifstream(path)) throw InputError(fmt::format("{}: the file cannot be read", path.string()));
+}
+
+std::string read_bytes(const std::filesystem::path& path, const std::string& kind)
+{
+    require_file(path, kind);
     std::ifstream stream(path, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream) throw InputError(fmt::format("{}: the file cannot be read", path.string()));
-    return bytes;
+    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 } // namespace talus

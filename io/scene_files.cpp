@@ -3,12 +3,7 @@
 
 #include "io/checksum.hpp"
 #include "io/field_kind.hpp"
-#include "io/input_error.hpp"
-
-#include <fmt/format.h>
-
-#include <fstream>
-#include <iterator>
+#include "io/input_file.hpp"
 
 namespace talus
 {
@@ -18,19 +13,12 @@ namespace
 
 using Files = std::vector<std::pair<std::string, std::uint32_t>>;
 
-std::uint32_t checksum_of_file(const std::string& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream) throw InputError(fmt::format("{}: the file cannot be read", path));
-    return checksum(bytes);
-}
-
 void add_files(Files&, std::string_view, const auto&) {}
 
 void add_files(Files& files, std::string_view key, const std::string& value)
 {
-    if ((key == "mesh" || key == "file") && !value.empty()) files.emplace_back(value, checksum_of_file(value));
+    if ((key == "mesh" || key == "file") && !value.empty())
+        files.emplace_back(value, checksum(read_bytes(value, "a file")));
 }
 
 template <Table Described> void add_files(Files& files, std::string_view, const Described& table);

@@ -102,7 +102,7 @@ template <class Reader> vtkSmartPointer<vtkPointSet> read_with(const std::filesy
 
 vtkSmartPointer<vtkPointSet> read_points(const std::filesystem::path& path)
 {
-    read_bytes(path, "a VTK file"); // for the sentences about a file that is not there
+    require_file(path, "a VTK file");
     return path.extension() == ".vtp" ? read_with<vtkXMLPolyDataReader>(path)
                                       : read_with<vtkXMLUnstructuredGridReader>(path);
 }
