@@ -25,9 +25,7 @@ std::optional<Incident::Kind> incident_of(const State& state, const Model& model
 SphereSurvey survey_block(const State& state, const Model& model, std::size_t begin, std::size_t end)
 {
     SphereSurvey survey;
-    Vec3 along = Vec3::Zero(); // gravity along periodic axes: there is no height on them
-    for (int d = 0; d < 3; ++d)
-        if (model.periodicity.along(d)) along[d] = model.gravity[d];
+    const Vec3 along = model.periodicity.part_along(model.gravity); // there is no height on these axes
     for (std::size_t i = begin; i < end; ++i) {
         const auto& m = state.motion[i];
         const double speed = m.velocity.norm();

@@ -6,9 +6,7 @@ namespace talus
 
 Vec3 Model::up() const
 {
-    Vec3 down = gravity;
-    for (int d = 0; d < 3; ++d)
-        if (periodicity.along(d)) down[d] = 0.0;
+    const Vec3 down = gravity - periodicity.part_along(gravity);
     return down.isZero() ? Vec3::UnitZ() : Vec3(-down.normalized());
 }
 

@@ -18,6 +18,15 @@ struct Periodicity {
     bool along(int axis) const { return length[axis] < infinity; }
     bool any() const { return length.minCoeff() < infinity; }
 
+    /// The part of a vector along the periodic axes.
+    Vec3 part_along(const Vec3& v) const
+    {
+        Vec3 part = Vec3::Zero();
+        for (int d = 0; d < 3; ++d)
+            if (along(d)) part[d] = v[d];
+        return part;
+    }
+
     /// The whole cells by which `from` must be shifted to be the image nearest to `to`.
     Vec3 shift_towards(const Vec3& from, const Vec3& to) const
     {
