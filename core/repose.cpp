@@ -82,7 +82,7 @@ double slope_angle(const Surface& surface, double inner, double outer, std::size
         if (surface.radius(ring) >= inner && surface.radius(ring) <= outer && std::isfinite(mean))
             line.add(surface.radius(ring), mean);
     }
-    return std::atan(-line.slope()) * 180.0 / std::numbers::pi;
+    return line.fall_angle();
 }
 
 } // namespace

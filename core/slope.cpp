@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 
 namespace talus
 {
@@ -38,7 +37,7 @@ void Slope::sample(const Snapshot& now)
         for (const auto& [lane, height] : lanes) mean.add(height);
         line.add((static_cast<double>(row) + 0.5) * width, mean.mean());
     }
-    angle_ = std::atan(-line.slope()) * 180.0 / std::numbers::pi;
+    angle_ = line.fall_angle();
     if (window_.contains(now.state.time)) mean_.add(angle_);
 }
 

@@ -2,9 +2,15 @@
 #include "core/statistics.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace talus
 {
+
+double LineFit::fall_angle() const
+{
+    return std::atan(-slope()) * 180.0 / std::numbers::pi;
+}
 
 void MeanAndError::add(double x)
 {

@@ -26,6 +26,9 @@ public:
     /// dy/dx; not a number with fewer than two different x.
     double slope() const { return xx_ > 0.0 ? xy_ / xx_ : std::numeric_limits<double>::quiet_NaN(); }
 
+    /// How steeply the line falls [degree].
+    double fall_angle() const;
+
 private:
     std::size_t count_ = 0;
     double mean_x_ = 0.0, mean_y_ = 0.0, xx_ = 0.0, xy_ = 0.0;
