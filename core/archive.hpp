@@ -4,7 +4,6 @@
 #include "core/vector.hpp"
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <random>
 #include <sstream>
@@ -28,7 +27,7 @@ struct ArchiveError : std::runtime_error {
 ///   void persist(Archive& archive) { archive(position, motion, time); }
 ///
 /// Numbers are kept as their bits, on this machine's byte order. Taken are numbers, enumerations, Vec3, strings, random
-/// generators, pairs, optionals, vectors and deques of such, structures of plain numbers, and all that has a `persist`.
+/// generators, pairs, optionals and vectors of such, structures of plain numbers, and all that has a `persist`.
 class Archive
 {
 public:
@@ -74,7 +73,7 @@ private:
 
     void keep(std::string& text)
     {
-        resize(text, 1);
+        resize(text);
         raw(text.data(), text.size());
     }
 
@@ -97,35 +96,22 @@ private:
         if (present) keep(*value);
     }
 
-    template <class Element> void keep(std::vector<Element>& list) { keep_list(list); }
-    template <class Element> void keep(std::deque<Element>& list) { keep_list(list); }
-
-    void keep(std::vector<bool>& list)
+    template <class Element> void keep(std::vector<Element>& list)
     {
-        std::vector<std::uint8_t> bytes(list.begin(), list.end());
-        keep(bytes);
-        list.assign(bytes.begin(), bytes.end());
-    }
-
-    template <class List> void keep_list(List& list)
-    {
-        using Element = typename List::value_type;
-        resize(list, 1);
-        if constexpr (
-            std::is_trivially_copyable_v<Element> && !requires(Element & e) { e.persist(*this); } &&
-            requires { list.data(); })
+        resize(list);
+        if constexpr (std::is_trivially_copyable_v<Element> && !requires(Element & e) { e.persist(*this); })
             raw(list.data(), list.size() * sizeof(Element));
         else
             for (auto& element : list) keep(element);
     }
 
-    /// The size of a list, which each element takes at least so many bytes of.
-    template <class List> void resize(List& list, std::size_t least)
+    /// The size of a list, each element of which takes one byte at least.
+    template <class List> void resize(List& list)
     {
         std::uint64_t size = list.size();
         raw(&size, sizeof size);
         if (!reading_) return;
-        require(static_cast<std::size_t>(size) * least);
+        require(static_cast<std::size_t>(size));
         list.resize(static_cast<std::size_t>(size));
     }
 };
