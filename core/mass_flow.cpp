@@ -14,8 +14,8 @@ constexpr int parts = 5; ///< of the steady window, for the spread
 
 } // namespace
 
-MassFlow::MassFlow(std::string sensor_name, const Vec3& point, const Vec3& normal, double from, double to)
-    : Sensor(std::move(sensor_name)), point_(point), normal_(normal), from_(from), to_(to)
+MassFlow::MassFlow(std::string sensor_name, const Vec3& point, const Vec3& normal, const TimeWindow& window)
+    : Sensor(std::move(sensor_name)), point_(point), normal_(normal), window_(window)
 {
 }
 
@@ -65,7 +65,7 @@ std::vector<Measurement> MassFlow::results() const
     LineFit mass, count;
     std::vector<Sample> steady;
     std::copy_if(samples_.begin(), samples_.end(), std::back_inserter(steady),
-        [&](const Sample& s) { return s.time >= from_ && s.time <= to_; });
+        [&](const Sample& s) { return window_.contains(s.time); });
     std::vector<LineFit> mass_part(parts), count_part(parts);
     for (std::size_t k = 0; k < steady.size(); ++k) {
         mass.add(steady[k].time, steady[k].mass);

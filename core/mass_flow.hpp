@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/sensor.hpp"
+#include "core/time_window.hpp"
 
 namespace talus
 {
@@ -12,13 +13,13 @@ namespace talus
 /// Through a plane across a periodic axis, where nothing is behind or beyond, it is the mean over all such planes: in a
 /// step Σ m v·n h / length of the cell passes.
 ///
-/// The rate is the least-squares slope of the passed mass over [from, to]; its spread is the standard error of the
-/// slopes of five equal parts of that window.
+/// The rate is the least-squares slope of the passed mass over the window; its spread is the standard error of the
+/// slopes of five equal parts of it.
 class MassFlow : public Sensor
 {
 public:
-    /// @param normal unit, the direction of the flow; @param from, to the steady window [s]
-    MassFlow(std::string name, const Vec3& point, const Vec3& normal, double from, double to);
+    /// @param normal unit, the direction of the flow; @param window the steady part
+    MassFlow(std::string name, const Vec3& point, const Vec3& normal, const TimeWindow& window);
 
     void watch(const Snapshot& now) override;
     void sample(const Snapshot& now) override;
@@ -31,7 +32,7 @@ private:
         double time, mass, count;
     };
     Vec3 point_, normal_;
-    double from_, to_;
+    TimeWindow window_;
     std::vector<Sample> samples_;
     double flowed_mass_ = 0.0, flowed_count_ = 0.0; ///< through planes across a periodic axis [kg], [1]
 

@@ -42,7 +42,7 @@ std::unique_ptr<Sensor> build_mass_flow(const Entry& entry, const Periodicity& p
     for (int d = 0; d < 3; ++d)
         if (periodicity.along(d) && normal[d] != 0.0 && std::abs(normal[d]) != 1.0)
             throw SceneError(entry.key("normal"), "a plane must lie along a periodic axis or straight across it");
-    return std::make_unique<MassFlow>(entry.table.name, entry.table.point, normal, window.from, window.to);
+    return std::make_unique<MassFlow>(entry.table.name, entry.table.point, normal, window);
 }
 
 std::unique_ptr<Sensor> build_repose(const Entry& entry, const Vec3& gravity)

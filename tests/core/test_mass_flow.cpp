@@ -38,7 +38,7 @@ struct Stream {
 
 MassFlow downwards(double from, double to)
 {
-    return MassFlow("outlet", Vec3::Zero(), -Vec3::UnitZ(), from, to);
+    return MassFlow("outlet", Vec3::Zero(), -Vec3::UnitZ(), {from, to});
 }
 
 void sample_until(MassFlow& sensor, Stream& stream, double end, double interval = 0.01)
@@ -167,7 +167,7 @@ TEST_CASE("across a periodic axis a uniform flow is its mass times speed over th
     for (int i = 0; i < 7; ++i) add_sphere(state, Vec3(0.02 * i, 0, 0), radius, density, 0, Vec3(0.5, 3.0, 0));
     const double mass = 7 * state.mass(0);
     const auto flow_along = [&](const Vec3& normal) {
-        MassFlow sensor("flow", Vec3(0.07, 0, 0), normal, 0.1, 0.9);
+        MassFlow sensor("flow", Vec3(0.07, 0, 0), normal, {0.1, 0.9});
         const ContactNetwork no_contacts;
         const StepReport no_step;
         for (state.steps = 1; state.steps <= 1000; ++state.steps) {
