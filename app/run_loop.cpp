@@ -3,10 +3,10 @@
 
 #include "app/signals.hpp"
 #include "app/terminal.hpp"
-#include "app/wall_names.hpp"
 #include "io/checkpoint.hpp"
 #include "io/input_error.hpp"
 #include "io/lost_spheres.hpp"
+#include "scenarios/scene_checks.hpp"
 
 #include <algorithm>
 
@@ -165,7 +165,7 @@ void RunLoop::tell_escaped(const StepReport& report)
         progress_.finish();
         if (told == escapes_told) return warn("further escapes are told by the ledger and lost.vtp only\n");
         warn("t = {:.6g} s: {}; it is taken out\n", simulation_.state.time,
-            describe(report.incidents[k], wall_names(simulation_.model)));
+            describe(report.incidents[k], names_of(simulation_.model.walls)));
     }
 }
 

@@ -2,7 +2,7 @@
 #include "app/run_report.hpp"
 
 #include "app/terminal.hpp"
-#include "app/wall_names.hpp"
+#include "scenarios/scene_checks.hpp"
 
 #include <omp.h>
 
@@ -130,7 +130,7 @@ RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const RunEn
     RunSummary summary;
     summary.incidents = end.incidents;
     summary.interrupted = end.signal != 0;
-    summary.wall_names = wall_names(simulation.model);
+    summary.wall_names = names_of(simulation.model.walls);
     summary.version = TALUS_VERSION;
     summary.scene = opened.name;
     summary.title = opened.scene.title;

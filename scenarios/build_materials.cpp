@@ -75,12 +75,7 @@ Materials build_materials(const scene::Scene& scene)
 
 int material_index(const Materials& materials, const std::string& name, const std::string& key)
 {
-    std::string known;
-    for (std::size_t k = 0; k < materials.list.size(); ++k) {
-        if (materials.list[k].name == name) return static_cast<int>(k);
-        known += (k ? ", " : "") + materials.list[k].name;
-    }
-    throw SceneError(key, "unknown material '" + name + "'; the scene has " + (known.empty() ? "none" : known));
+    return static_cast<int>(index_of(materials.list, "material", name, key));
 }
 
 ModelledPhysics needed_physics(const scene::Scene& scene, const Materials& materials)

@@ -90,20 +90,9 @@ std::unique_ptr<Sensor> build_profile(const Entry& entry)
     return std::make_unique<Profile>(entry.table.name, bins, build_window(entry));
 }
 
-std::string names_of(const std::vector<Wall>& walls)
-{
-    std::string names;
-    for (const Wall& wall : walls) names += (names.empty() ? "" : ", ") + wall.name;
-    return names.empty() ? "none" : names;
-}
-
 std::unique_ptr<Sensor> build_wall_force(const Entry& entry, const std::vector<Wall>& walls)
 {
-    const auto found = std::ranges::find(walls, entry.table.wall, &Wall::name);
-    if (found == walls.end())
-        throw SceneError(
-            entry.key("wall"), "unknown wall '" + entry.table.wall + "'; the scene has " + names_of(walls));
-    const auto wall = static_cast<std::size_t>(found - walls.begin());
+    const std::size_t wall = index_of(walls, "wall", entry.table.wall, entry.key("wall"));
     return std::make_unique<WallForce>(entry.table.name, wall, entry.table.point, build_window(entry));
 }
 

@@ -16,6 +16,14 @@ std::string key_path(const std::string& list, std::size_t index, const std::stri
     return table_path(list, index) + "." + key;
 }
 
+void refuse_unknown(
+    const std::string& what, const std::string& name, const std::vector<std::string>& known, const std::string& key)
+{
+    std::string list;
+    for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+    throw SceneError(key, "unknown " + what + " '" + name + "'; the scene has " + (list.empty() ? "none" : list));
+}
+
 Vec3 unit_vector(const Vec3& direction, const std::string& key)
 {
     if (direction.isZero()) throw SceneError(key, "a direction must not be zero");
