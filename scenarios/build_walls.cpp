@@ -47,13 +47,10 @@ MotionPart build_motion_part(const scene::MotionTable& m, const std::string& key
     if (m.kind == "turn") return Turning{span, m.point, unit_vector(m.axis, key + ".axis"), m.rate};
     if (m.kind == "shake") return Shaking{span, m.amplitude, m.frequency};
     if (m.table.empty()) throw SceneError(key + ".table", "'table' needs at least one row [time, x, y, z]");
-    Course course;
-    for (const auto& row : m.table) {
-        if (!course.waypoints.empty() && !(row.time > course.waypoints.back().time))
-            throw SceneError(key + ".table", "the times of 'table' must rise from row to row");
-        course.waypoints.push_back({row.time, row.shift});
-    }
-    return course;
+    const auto falls_back = [](const auto& row, const auto& next) { return !(next.time > row.time); };
+    if (std::ranges::adjacent_find(m.table, falls_back) != m.table.end())
+        throw SceneError(key + ".table", "the times of 'table' must rise from row to row");
+    return Course{m.table};
 }
 
 WallMotion build_motion(const scene::WallTable& table, std::size_t index)

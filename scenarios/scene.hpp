@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/vector.hpp"
+#include "core/wall_motion.hpp"
 
 #include <algorithm>
 #include <array>
@@ -348,11 +349,7 @@ struct PourTable {
     }
 };
 
-/// A place on the way of a wall.
-struct Waypoint {
-    double time = 0.0;         ///< [s]
-    Vec3 shift = Vec3::Zero(); ///< from where the wall's own keys put it [m]
-};
+using Waypoint = Course::Waypoint;
 
 struct MotionTable {
     std::string kind;

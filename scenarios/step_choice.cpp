@@ -85,16 +85,13 @@ std::vector<double> times_to_look(const WallMotion& motion, double duration)
     constexpr int samples = 1000;
     std::vector<double> times;
     for (int k = 0; k < samples; ++k) times.push_back(duration / samples * (k + std::fmod(0.618034 * k, 1.0)));
-    for (const auto& part : motion) {
-        if (const auto* course = std::get_if<Course>(&part))
-            for (const auto& waypoint : course->waypoints) times.push_back(waypoint.time);
-        else if (const auto* translation = std::get_if<Translation>(&part))
-            times.push_back(translation->span.from);
-        else if (const auto* turning = std::get_if<Turning>(&part))
-            times.push_back(turning->span.from);
+    const auto add_beginnings = [&](const auto& part) {
+        if constexpr (requires { part.waypoints; })
+            for (const auto& waypoint : part.waypoints) times.push_back(waypoint.time);
         else
-            times.push_back(std::get<Shaking>(part).span.from);
-    }
+            times.push_back(part.span.from);
+    };
+    for (const auto& part : motion) std::visit(add_beginnings, part);
     std::erase_if(times, [&](double time) { return !(time < duration); });
     return times;
 }
