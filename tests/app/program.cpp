@@ -37,6 +37,31 @@ max = [0.05, 0.05, 0.05]
 open = ["z+"]
 )";
 
+const std::string bead_on_a_table = R"(title = "A bead falls off a table"
+[time]
+duration = 1.0
+frame_interval = 0.05
+[materials.glass]
+density = 2500.0
+[[contact]]
+between = ["glass", "glass"]
+friction = 0.1
+[[fill]]
+material = "glass"
+count = 1
+diameter = 0.01
+region = { shape = "box", min = [-0.0051, -0.0051, 0.0], max = [0.0051, 0.0051, 0.0102] }
+spacing = 1.02
+velocity = [0.5, 0.0, 0.0]
+[[wall]]
+name = "table"
+shape = "disk"
+material = "glass"
+center = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+radius = 0.03
+)";
+
 std::string stream_of_beads()
 {
     const std::string longer = replaced(beads_in_a_box, "duration = 0.05", "duration = 0.4");

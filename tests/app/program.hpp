@@ -43,6 +43,9 @@ private:
 /// Eight beads that fall onto the floor of a box: 0.05 s, six frames.
 extern const std::string beads_in_a_box;
 
+/// A bead that slides over the edge of a table and falls out of the world, which ends five diameters below.
+extern const std::string bead_on_a_table;
+
 /// Beads poured into the box fall through its open floor into an outlet, past a sensor: 0.4 s.
 std::string stream_of_beads();
 

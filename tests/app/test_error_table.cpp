@@ -22,25 +22,6 @@ struct Situation {
     std::string arguments;
 };
 
-const std::string bead_on_a_table = R"(title = "A bead falls off a table"
-[materials.glass]
-[[contact]]
-between = ["glass", "glass"]
-friction = 0.1
-[[fill]]
-material = "glass"
-count = 1
-diameter = 0.01
-region = { shape = "box", min = [-0.0051, -0.0051, 0.0], max = [0.0051, 0.0051, 0.0102] }
-spacing = 1.02
-velocity = [0.5, 0.0, 0.0]
-[[wall]]
-name = "table"
-shape = "disk"
-material = "glass"
-radius = 0.03
-)";
-
 const std::string check = "check scene.toml";
 const std::string run = "run scene.toml -o out --quiet --threads 1";
 const std::string resume = "resume out --quiet --threads 1";

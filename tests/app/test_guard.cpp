@@ -6,41 +6,10 @@
 
 using Catch::Matchers::Contains;
 
-namespace
-{
-
-/// A bead that slides over the edge of a table and falls out of the world, which ends five diameters below.
-const std::string table = R"(title = "A bead falls off a table"
-[time]
-duration = 1.0
-frame_interval = 0.05
-[materials.glass]
-density = 2500.0
-[[contact]]
-between = ["glass", "glass"]
-friction = 0.1
-[[fill]]
-material = "glass"
-count = 1
-diameter = 0.01
-region = { shape = "box", min = [-0.0051, -0.0051, 0.0], max = [0.0051, 0.0051, 0.0102] }
-spacing = 1.02
-velocity = [0.5, 0.0, 0.0]
-[[wall]]
-name = "table"
-shape = "disk"
-material = "glass"
-center = [0.0, 0.0, 0.0]
-normal = [0.0, 0.0, 1.0]
-radius = 0.03
-)";
-
-} // namespace
-
 TEST_CASE("a sphere that escapes ends the run with 3, and is told with id, speed and the wall it left", "[app][guard]")
 {
     const Workplace place;
-    const Outcome outcome = place.run(table);
+    const Outcome outcome = place.run(bead_on_a_table);
     CHECK(outcome.exit_code == 3);
     CHECK_THAT(outcome.err, Contains("sphere 0 ") && Contains("outlet") && Contains("m/s") && Contains("'table'"));
     CHECK_THAT(outcome.out, Contains("FAILED"));
@@ -65,7 +34,7 @@ TEST_CASE("a sphere that escapes ends the run with 3, and is told with id, speed
 TEST_CASE("an escape loses no frame, and adds one of the step in which it happened", "[app][guard]")
 {
     const Workplace place;
-    REQUIRE(place.run(table).exit_code == 3);
+    REQUIRE(place.run(bead_on_a_table).exit_code == 3);
     const auto summary = nlohmann::json::parse(place.read("out/summary.json"));
     const double end = summary["time"]["simulated"];
     const auto frames = static_cast<int>(end / 0.05) + 2; // at 0, 0.05, … and at the end
@@ -84,7 +53,7 @@ TEST_CASE("an escape loses no frame, and adds one of the step in which it happen
 TEST_CASE("with on_escape = \"remove\" a sphere that escapes is taken out, kept in lost.vtp and told", "[app][guard]")
 {
     const Workplace place;
-    const Outcome outcome = place.run(table, "--set world.on_escape=remove --set time.duration=0.3");
+    const Outcome outcome = place.run(bead_on_a_table, "--set world.on_escape=remove --set time.duration=0.3");
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.err, Contains("sphere 0 ") && Contains("it is taken out") && Contains("'table'"));
     CHECK(line_of(outcome.err + "|", "|") == 2); // once
@@ -101,7 +70,7 @@ TEST_CASE("with on_escape = \"remove\" a sphere that escapes is taken out, kept 
 TEST_CASE("spheres that move far in a step are told once, with the step that would do", "[app][guard]")
 {
     const Workplace place;
-    const Outcome outcome = place.run(table, "--set time.step=0.005 --until 0.1"); // 0.25 d in a step
+    const Outcome outcome = place.run(bead_on_a_table, "--set time.step=0.005 --until 0.1"); // 0.25 d in a step
     CHECK_THAT(outcome.err, Contains("over 0.1 d in 10 steps") && Contains("--set time.step="));
     CHECK(line_of(outcome.err + "|", "|") == 2);
 }
