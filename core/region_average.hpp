@@ -18,8 +18,8 @@ namespace talus
 /// - coordination number Σ w c / Σ w, c the contacts of a sphere that carry an impulse, those with walls included; and
 ///   the same over the spheres that have two contacts or more (not rattlers)
 /// - mean velocity u = Σ w m v / Σ w m [m/s]
-/// - granular temperature Σ w m |v − u|² / (3 Σ w m) [m²/s²]; a gradient of the mean velocity across the region is in
-/// it
+/// - granular temperature Σ w m |v − u|² / (3 Σ w m) [m²/s²]; a gradient of the mean velocity across the region is
+///   in it
 /// - stress, symmetric part, compression positive [Pa]: that of the contacts (Love 1927, Weber 1966; of each branch the
 ///   length inside counts, so that the force through every plane of the region is right), and the kinetic part:
 ///

@@ -11,9 +11,8 @@ namespace talus
 /// Angle of repose of a heap round an axis through `base`, straight up against gravity: the slope of a line through
 /// ring means of the highest sphere tops (rings one diameter wide, 16 azimuth sectors), over the rings between
 /// inner_radius and outer_radius; where those are not given, over the rings between 20 and 80 % of the heap's height.
-/// The foot is the distance from the axis within which 99 % of the mass lies: grains that
-/// roll away alone do not count. The spread is the standard error over the angles of eight azimuth
-/// octants.
+/// The foot is the distance from the axis within which 99 % of the mass lies: grains that roll away alone do not count.
+/// The spread is the standard error over the angles of eight azimuth octants.
 class Repose : public Sensor
 {
 public:

@@ -467,18 +467,20 @@ struct OutletTable {
     }
 };
 
-/// Kinds: mass_flow through a plane; repose, the angle of a heap; region: packing fraction, coordination, velocity,
-/// granular temperature and stress in it; profile: packing and flow in the bins of a region; wall_force: force and
-/// torque on a wall.
+/// Kinds: mass_flow through a plane; repose, the angle of a heap; slope, that of a free surface; region: packing
+/// fraction, coordination, velocity, granular temperature and stress in it; profile: packing and flow in the bins of a
+/// region; wall_force: force and torque on a wall.
 struct SensorTable {
     std::string name;
     std::string kind;
     // the steady part of the run, for all but repose
     double from = 0.0;
     double to = infinity;
-    // mass_flow and wall_force
+    // mass_flow, slope and wall_force
     Vec3 point = Vec3::Zero();
+    // mass_flow
     Vec3 normal = -Vec3::UnitZ();
+    // wall_force
     std::string wall;
     // slope
     Vec3 along = Vec3::UnitX();
