@@ -43,7 +43,7 @@ LocalResidualReport solve_with_local_residual(Iterate& x, const SolveSettings& s
         return sums;
     };
     const auto report = repeat_until_small(
-        settings, p.constraints().size(), sweep, [&] { return relative_size(natural_map_sums(x, D)); }, observer);
+        settings, p.constraints().size(), sweep, [&] { return natural_map_sums(x, D); }, observer);
     return {report, running};
 }
 

@@ -41,7 +41,7 @@ SolveReport solve_projected(AnyIterate& x, const SolveSettings& settings, const 
     return repeat_until_small(
         settings, x.constraints().size(),
         [&](const std::vector<std::size_t>& sequence) { return algorithm.sweep(x, sequence); },
-        [&] { return relative_size(algorithm.measure(x)); }, observer);
+        [&] { return algorithm.measure(x); }, observer);
 }
 
 template class ProjectedGaussSeidel<Iterate>;

@@ -31,22 +31,24 @@ struct SolveReport {
 /// Called after each sweep with the number of sweeps so far.
 using SweepObserver = std::function<void(int)>;
 
-/// "repeat … until error is small, or iteration time is exceeded": calls sweep(sequence), which returns the sums of
-/// its changes; when these are small, `measure` tells ε without changing anything.
+/// "repeat … until error is small, or iteration time is exceeded", lines 5 and 16–23 of the note's algorithms.
+/// @param sweep changes the iterate in the order given and returns the sums of its changes; @param measure returns the
+/// sums of ε and changes nothing: it has the last word where the changes are small
 template <class Sweep, class Measure>
 SolveReport repeat_until_small(const SolveSettings& settings, std::size_t constraints, Sweep&& sweep, Measure&& measure,
     const SweepObserver& observer)
 {
     Traversal traversal(settings.order, constraints, settings.seed);
+    const SweepSums start = measure();
     SolveReport report;
-    report.residual = measure();
+    report.residual = relative_size(start);
     while (report.residual > settings.tolerance && report.sweeps < settings.max_sweeps && report.finite) {
-        const SweepSums sums = sweep(traversal.next());
+        const SweepSums swept = sweep(traversal.next());
         ++report.sweeps;
         if (observer) observer(report.sweeps);
-        report.finite = std::isfinite(sums.change);
-        if (relative_size(sums) <= settings.tolerance || report.sweeps == settings.max_sweeps)
-            report.residual = measure();
+        report.finite = std::isfinite(swept.change);
+        if (relative_size(swept, start.size) <= settings.tolerance || report.sweeps == settings.max_sweeps)
+            report.residual = relative_size(measure(), start.size);
     }
     report.converged = report.finite && report.residual <= settings.tolerance;
     return report;
