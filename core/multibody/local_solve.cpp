@@ -96,16 +96,13 @@ void solve_along_sliding(const LocalProblem& local, LocalVector y, LocalVector z
     if (local.constraint.law != Law::contact) return solve_by_block(local, y, z);
     const double b = y[0] - local.D.row(0).dot(z); // r₁ − (D λ)₁ of (20)
     z -= local.inverse.lazyProduct(y);
-    if (z[0] <= 0.0) {
-        z.setZero();
-        return;
-    }
     const auto sliding = sliding_direction(local.constraint, z);
     const double denominator = local.D.row(0).dot(sliding.direction);
     if (sliding.slides && denominator > 0.0) {
         const double normal = -(b + local.D.row(0).dot(sliding.stuck)) / denominator;
         z = std::max(0.0, normal) * sliding.direction + sliding.stuck;
-    }
+    } else if (z[0] <= 0.0)
+        z.setZero();
     project(local.constraint, z);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/multibody/problem.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 namespace talus::multibody
 {
@@ -17,11 +17,11 @@ void append(std::vector<double>& vector, const Eigen::VectorXd& more)
 
 std::size_t Problem::add_body(const Eigen::MatrixXd& mass, const Eigen::VectorXd& momentum)
 {
-    const auto cholesky = mass.llt();
+    const auto decomposition = mass.partialPivLu(); // as it is: in files from outside symmetric to three digits only
     first_dof_.push_back(dofs());
     mass_.add(mass);
-    inverse_mass_.add(cholesky.solve(Eigen::MatrixXd::Identity(mass.rows(), mass.cols())));
-    append(free_velocity_, cholesky.solve(momentum));
+    inverse_mass_.add(decomposition.solve(Eigen::MatrixXd::Identity(mass.rows(), mass.cols())));
+    append(free_velocity_, decomposition.solve(momentum));
     return body_count() - 1;
 }
 

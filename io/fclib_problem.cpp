@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/fclib_problem.hpp"
+
+#include "io/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace talus
+{
+namespace
+{
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using multibody::Constraint;
+using multibody::Law;
+
+std::vector<Constraint> contacts_of(const FclibProblem& file)
+{
+    std::vector<Constraint> contacts;
+    for (Index k = 0; k < file.contacts(); ++k)
+        contacts.push_back({.law = Law::contact,
+            .first_row = file.rows_per_contact * k,
+            .rows = file.rows_per_contact,
+            .friction = file.mu[k],
+            .rolling_reach = file.mu_r.size() > 0 ? file.mu_r[k] : 0.0});
+    return contacts;
+}
+
+/// Without a positive D_kk no impulse can answer for a contact's velocity, and no error measure can weigh it.
+template <class AnyIterate> void require_answers(const AnyIterate& iterate, const std::string& name)
+{
+    for (std::size_t k = 0; k < iterate.constraints().size(); ++k)
+        if (iterate.diagonal_block(k).diagonal().minCoeff() <= 0.0)
+            throw InputError(fmt::format("{}: {} {} has a row in which its own reaction changes no velocity (diagonal "
+                                         "of W not positive); it joins bodies that cannot move",
+                name, iterate.constraints()[k].law == Law::equality ? "constraint" : "contact", k));
+}
+
+VectorXd joined(const VectorXd& a, const VectorXd& b)
+{
+    VectorXd both(a.size() + b.size());
+    both << a, b;
+    return both;
+}
+
+multibody::MatrixProblem matrices_of(const FclibProblem& file)
+{
+    multibody::MatrixProblem p;
+    p.mass = file.M;
+    p.momentum = file.f;
+    p.constraints = contacts_of(file);
+    const Index contact_rows = file.H.cols();
+    for (Index k = 0; k < file.G.cols(); ++k)
+        p.constraints.push_back({.law = Law::equality, .first_row = contact_rows + k, .rows = 1});
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto append = [&](const Eigen::SparseMatrix<double>& transposed, Index first_row) {
+        for (Index column = 0; column < transposed.cols(); ++column)
+            for (Eigen::SparseMatrix<double>::InnerIterator entry(transposed, column); entry; ++entry)
+                entries.emplace_back(first_row + column, entry.row(), entry.value());
+    };
+    append(file.H, 0);
+    append(file.G, contact_rows);
+    p.jacobian.resize(contact_rows + file.G.cols(), file.M.rows());
+    p.jacobian.setFromTriplets(entries.begin(), entries.end());
+    p.target = -joined(file.w, file.b);
+    p.compliance = VectorXd::Zero(p.target.size());
+    return p;
+}
+
+/// A matrix made of blocks, entry by entry.
+class SparseEntries
+{
+public:
+    void add(Index first_row, Index first_column, const Eigen::MatrixXd& block)
+    {
+        for (Index j = 0; j < block.cols(); ++j)
+            for (Index i = 0; i < block.rows(); ++i)
+                if (block(i, j) != 0.0) entries_.emplace_back(first_row + i, first_column + j, block(i, j));
+    }
+
+    Eigen::SparseMatrix<double> matrix(Index rows, Index columns) const
+    {
+        Eigen::SparseMatrix<double> matrix(rows, columns);
+        matrix.setFromTriplets(entries_.begin(), entries_.end());
+        return matrix;
+    }
+
+private:
+    std::vector<Eigen::Triplet<double>> entries_;
+};
+
+void set_friction(FclibProblem& file, const std::vector<Constraint>& contacts)
+{
+    const auto count = static_cast<Index>(contacts.size());
+    const bool rolls = !contacts.empty() && contacts.front().rolls();
+    file.form = rolls ? FclibForm::global_rolling : FclibForm::global;
+    file.rows_per_contact = rolls ? 5 : 3;
+    file.mu.resize(count);
+    file.mu_r.resize(rolls ? count : 0);
+    for (Index k = 0; k < count; ++k) {
+        file.mu[k] = contacts[static_cast<std::size_t>(k)].friction;
+        if (rolls) file.mu_r[k] = contacts[static_cast<std::size_t>(k)].rolling_reach;
+    }
+}
+
+} // namespace
+
+multibody::ProblemWithBodies with_bodies(const FclibProblem& file, const std::string& name)
+try {
+    auto problem = multibody::with_bodies(matrices_of(file));
+    require_answers(multibody::Iterate(problem.problem), name);
+    return problem;
+} catch (const std::domain_error& error) {
+    throw InputError(name + ": " + error.what());
+}
+
+multibody::AssembledProblem assembled(const FclibProblem& file, const std::string& name)
+{
+    multibody::AssembledProblem problem{contacts_of(file), file.W, -file.q};
+    require_answers(multibody::AssembledIterate(problem), name);
+    return problem;
+}
+
+FclibProblem to_fclib(const multibody::Problem& problem, const VectorXd& impulse)
+{
+    FclibProblem file;
+    set_friction(file, problem.constraints());
+    SparseEntries M, H;
+    for (std::size_t b = 0; b < problem.body_count(); ++b)
+        M.add(problem.first_dof(b), problem.first_dof(b), problem.mass(b));
+    for (std::size_t k = 0; k < problem.constraints().size(); ++k)
+        for (std::size_t i = problem.first_block(k); i < problem.first_block(k + 1); ++i)
+            H.add(problem.first_dof(problem.body_of_block(i)), problem.constraints()[k].first_row,
+                problem.jacobian(i).transpose());
+    Index dofs = problem.dofs();
+    for (Index row = 0; row < problem.rows(); ++row) {
+        const double compliance = problem.compliance()[row];
+        if (compliance == 0.0) continue;
+        M.add(dofs, dofs, Eigen::MatrixXd::Constant(1, 1, 1.0 / compliance));
+        H.add(dofs, row, Eigen::MatrixXd::Ones(1, 1));
+        ++dofs;
+    }
+    file.M = M.matrix(dofs, dofs);
+    file.H = H.matrix(dofs, problem.rows());
+    file.G.resize(dofs, 0);
+    file.f = VectorXd::Zero(dofs);
+    for (std::size_t b = 0; b < problem.body_count(); ++b)
+        problem.dofs_of(b, file.f) = problem.mass(b) * problem.dofs_of(b, problem.free_velocity());
+    file.w = -problem.target();
+    if (impulse.size() > 0) file.guesses.emplace_back().r = impulse;
+    return file;
+}
+
+} // namespace talus
