@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -19,35 +20,55 @@ const CLI::Validator from_zero_up(
     },
     "");
 
-void add_change_options(CLI::App& verb, CommandLine& line)
+void add_set_option(CLI::App& verb, CommandLine& line)
 {
     verb.add_option(
             "--set", line.overrides, "Replace a value of the scene, e.g. contact.glass-glass.friction=0.6; repeatable")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
+}
+
+void add_change_options(CLI::App& verb, CommandLine& line)
+{
+    add_set_option(verb, line);
     verb.add_option("--until", line.until, "Simulated time at which the run ends, in seconds")
         ->type_name("T")
         ->check(from_zero_up);
 }
 
-void add_scene_options(CLI::App& verb, CommandLine& line)
+void add_scene_and_seed(CLI::App& verb, CommandLine& line)
 {
     verb.add_option("SCENE", line.scene, "A scene file, or the name of a scene that 'talus list' shows")
         ->required()
         ->type_name("");
-    add_change_options(verb, line);
     verb.add_option("--seed", line.seed, "Seed of all random numbers")->type_name("N")->check(from_zero_up);
 }
 
-void add_run_options(CLI::App& verb, CommandLine& line)
+void add_scene_options(CLI::App& verb, CommandLine& line)
+{
+    add_scene_and_seed(verb, line);
+    add_change_options(verb, line);
+}
+
+void add_threads_option(CLI::App& verb, CommandLine& line)
 {
     verb.add_option("--threads", line.threads, "Threads [all cores]; they do not change the results")
         ->type_name("N")
         ->check(CLI::Range(1, 1024));
+}
+
+CLI::Option* add_quiet_flag(CLI::App& verb, CommandLine& line)
+{
+    return verb.add_flag_callback(
+        "--quiet", [&] { line.verbosity = Verbosity::quiet; }, "Print nothing but errors");
+}
+
+void add_run_options(CLI::App& verb, CommandLine& line)
+{
+    add_threads_option(verb, line);
     verb.add_option("--log-file", line.log, "Add everything that is printed to this file too, with the time of day")
         ->type_name("FILE");
-    CLI::Option* quiet = verb.add_flag_callback(
-        "--quiet", [&] { line.verbosity = Verbosity::quiet; }, "Print nothing but errors");
+    CLI::Option* quiet = add_quiet_flag(verb, line);
     verb.add_flag_callback(
             "--verbose", [&] { line.verbosity = Verbosity::verbose; },
             "Print the scene first, and a line for every frame and checkpoint")
@@ -101,6 +122,91 @@ void add_list(CLI::App& app, CommandLine& line)
     verb->callback([&] { line.verb = CommandLine::Verb::list; });
 }
 
+void add_dump(CLI::App& app, CommandLine& line)
+{
+    CLI::App* verb = app.add_subcommand("dump", "Run a scene up to a time and write the contact problem of that step");
+    add_scene_and_seed(*verb, line);
+    add_set_option(*verb, line);
+    verb->add_option("--at", line.at, "Simulated time of the step, in seconds")
+        ->type_name("T")
+        ->required()
+        ->check(from_zero_up);
+    verb->add_option("-o,--out", line.out, "The file, in FCLIB's format (HDF5)")->type_name("FILE")->required();
+    add_threads_option(*verb, line);
+    add_quiet_flag(*verb, line);
+    verb->footer("Example: talus dump hopper --at 1.8 -o hopper.hdf5");
+    verb->callback([&] { line.verb = CommandLine::Verb::dump; });
+}
+
+/// An option whose values have names.
+template <class Enum>
+void add_choice(CLI::App& verb, const char* name, Enum& value, const std::vector<std::pair<std::string, Enum>>& choices,
+    const std::string& help)
+{
+    std::vector<std::string> names;
+    for (const auto& choice : choices) names.push_back(choice.first);
+    verb.add_option_function<std::string>(
+            name,
+            [&value, choices](const std::string& text) {
+                for (const auto& [known, meaning] : choices)
+                    if (known == text) value = meaning;
+            },
+            help)
+        ->check(CLI::IsMember(names))
+        ->type_name(fmt::format("{}", fmt::join(names, "|")));
+}
+
+void add_method_options(CLI::App& verb, SolveRequest& solve)
+{
+    using multibody::LocalSolve;
+    using multibody::Order;
+    add_choice<Algorithm>(verb, "--algorithm", solve.algorithm,
+        {{"2.1", Algorithm::residual_update}, {"2.2", Algorithm::local_residual}, {"3.1", Algorithm::projected}},
+        "Of the note; 2.1 and 2.2 solve equalities only [3.1]");
+    add_choice<LocalSolve>(verb, "--local", solve.settings.local,
+        {{"sequential", LocalSolve::sequential}, {"block", LocalSolve::block}, {"sliding", LocalSolve::sliding},
+            {"scalar", LocalSolve::scalar}},
+        "How one contact is solved: normal first, or by the note's (18)-(19), (20)-(21), (22) [sequential]");
+    add_choice<Order>(verb, "--order", solve.settings.order,
+        {{"natural", Order::natural}, {"reversed", Order::reversed}, {"symmetric", Order::symmetric},
+            {"shuffled", Order::shuffled}},
+        "In which order a sweep goes through the contacts [natural]");
+    verb.add_option("--seed", solve.settings.seed, "Seed of shuffled orders [1]")->type_name("N");
+    verb.add_option("--omega", solve.settings.omega, "Relaxation, above 0 and below 2 [1]")
+        ->type_name("W")
+        ->check(CLI::Validator(
+            [](std::string& text) {
+                double value = 0.0;
+                const bool good = CLI::detail::lexical_cast(text, value) && value > 0.0 && value < 2.0;
+                return good ? std::string() : fmt::format("'{}' is not a number above 0 and below 2", text);
+            },
+            ""));
+}
+
+void add_solve(CLI::App& app, CommandLine& line)
+{
+    CLI::App* verb = app.add_subcommand("solve", "Solve a contact problem of a file and say how well");
+    SolveRequest& solve = line.solve;
+    verb->add_option("PROBLEM", solve.problem, "A contact problem in FCLIB's format (HDF5)")->required()->type_name("");
+    add_method_options(*verb, solve);
+    verb->add_option("--tolerance", solve.settings.tolerance, "On the relative residual [1e-4]")
+        ->type_name("EPS")
+        ->check(from_zero_up);
+    verb->add_option("--max-sweeps", solve.settings.max_sweeps, "Cap on the sweeps [10000]")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1000000000));
+    verb->add_option("--guess", solve.guess, "Start from a guess of the file, counted from 1, instead of from zero")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000));
+    verb->add_option("--history", solve.history, "Write the errors after each sweep to this CSV file")
+        ->type_name("FILE");
+    verb->add_option("-o,--out", line.out, "Write problem and solution (r, u, v) to this file")->type_name("FILE");
+    add_quiet_flag(*verb, line);
+    verb->footer("Example: talus solve hopper.hdf5 --tolerance 1e-6 --history history.csv -o solved.hdf5\n"
+                 "Ends with 0 where the tolerance was met, 1 where it was not, 2 where the file is wrong.");
+    verb->callback([&] { line.verb = CommandLine::Verb::solve; });
+}
+
 } // namespace
 
 std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
@@ -115,6 +221,8 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
     add_check(app, line);
     add_keys(app, line);
     add_list(app, line);
+    add_dump(app, line);
+    add_solve(app, line);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
@@ -126,7 +234,7 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
             "{}; see 'talus {}--help'", error.what(), verbs.empty() ? "" : verbs.front()->get_name() + " "));
     }
     if (app.get_subcommands().empty())
-        throw UsageError("say what to do: run, resume, check, keys or list; see 'talus --help'");
+        throw UsageError("say what to do: run, resume, check, keys, list, dump or solve; see 'talus --help'");
     return line;
 }
 

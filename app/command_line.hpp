@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/multibody/iteration.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -18,17 +20,31 @@ struct UsageError : std::runtime_error {
 
 enum class Verbosity { quiet, normal, verbose };
 
+/// The note's algorithms: 2.1, 2.2, 3.1.
+enum class Algorithm { residual_update, local_residual, projected };
+
+/// What `talus solve` is to do.
+struct SolveRequest {
+    std::filesystem::path problem;
+    Algorithm algorithm = Algorithm::projected;
+    multibody::SolveSettings settings;
+    std::filesystem::path history; ///< empty: none
+    int guess = 0;                 ///< of the file to start from, counted from 1; 0: start from zero
+};
+
 /// What the user asked for.
 struct CommandLine {
-    enum class Verb { run, resume, check, keys, list };
+    enum class Verb { run, resume, check, keys, list, dump, solve };
     Verb verb = Verb::list;
     std::string scene;                  ///< a path, or a name in scenarios/
     std::string table;                  ///< of keys: the one to show; empty: all
     std::vector<std::string> overrides; ///< key=value
     std::optional<std::int64_t> seed;
     std::optional<double> until; ///< [s]
-    std::filesystem::path out;   ///< of run: empty for out/<scene name>; of resume: the run's folder
-    std::filesystem::path log;   ///< empty: no log file
+    double at = 0.0;             ///< of dump [s]
+    SolveRequest solve;
+    std::filesystem::path out; ///< of run: empty for out/<scene name>; of resume: the run's folder; else a file
+    std::filesystem::path log; ///< empty: no log file
     bool force = false;
     bool relax = false;
     int threads = 0; ///< 0: as many as OpenMP takes, all cores unless its environment says otherwise

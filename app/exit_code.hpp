@@ -7,9 +7,10 @@ namespace talus
 /// How the program ends. These are part of its interface.
 enum class ExitCode {
     done = 0,
-    input = 2,   ///< wrong usage or a wrong scene
-    physics = 3, ///< a sphere escaped, is not a number or blew up
-    output = 4,  ///< a file cannot be written
+    not_converged = 1, ///< `talus solve`: the tolerance was not met; the result is written all the same
+    input = 2,         ///< wrong usage, a wrong scene or a wrong problem
+    physics = 3,       ///< a sphere escaped, is not a number or blew up
+    output = 4,        ///< a file cannot be written
     internal = 70,
     interrupted = 130, ///< by SIGINT, after a checkpoint
     terminated = 143   ///< by SIGTERM, likewise

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/check_scene.hpp"
 #include "app/command_line.hpp"
+#include "app/dump_step.hpp"
 #include "app/exit_code.hpp"
 #include "app/open_scene.hpp"
 #include "app/resume_run.hpp"
 #include "app/run_scene.hpp"
 #include "app/short_spins.hpp"
+#include "app/solve_problem.hpp"
 #include "app/terminal.hpp"
 #include "io/input_error.hpp"
 #include "io/key_table.hpp"
@@ -32,6 +34,10 @@ ExitCode execute(const CommandLine& line)
     case CommandLine::Verb::list:
         list_scenes();
         break;
+    case CommandLine::Verb::dump:
+        return dump_step(line);
+    case CommandLine::Verb::solve:
+        return solve_problem(line);
     }
     return ExitCode::done;
 }

@@ -53,9 +53,10 @@ void mark_leaving(State& state, const std::vector<Region>& outlets)
             if (outlet.contains(state.position[i])) state.leaving[i] = 1;
 }
 
-StepReport make_report(std::size_t searched, const ContactNetwork& contacts, const ContactSurvey& survey,
-    const SolveReport& solve, const ContactOutcome& outcome, std::vector<WallLoad> loads, SphereSurvey spheres)
+StepReport make_report(const BegunStep& begun, const ContactNetwork& contacts, const SolveReport& solve,
+    const ContactOutcome& outcome, std::vector<WallLoad> loads, SphereSurvey spheres)
 {
+    const ContactSurvey& survey = begun.survey;
     const auto overlapping = static_cast<double>(survey.overlapping);
     return {.sweeps = solve.sweeps,
         .residual = solve.residual,
@@ -72,7 +73,7 @@ StepReport make_report(std::size_t searched, const ContactNetwork& contacts, con
         .contact_energy = survey.contact_energy,
         .fastest_speed = spheres.fastest_speed,
         .long_moves = spheres.long_moves,
-        .searched = searched,
+        .searched = begun.searched,
         .wall_impulse = outcome.wall_impulse,
         .wall_work = outcome.wall_work,
         .wall_loads = std::move(loads),
@@ -81,6 +82,22 @@ StepReport make_report(std::size_t searched, const ContactNetwork& contacts, con
 
 } // namespace
 
+BegunStep begin_step(State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer)
+{
+    BegunStep begun;
+
+    // Which spheres and walls can touch during this step?
+    if (observer) observer(Phase::search);
+    renumber_along_curve(state, contacts, model);
+    begun.walls = place_walls(model.walls, model.periodicity, state.time, model.time_step);
+    begun.searched = update_candidates(contacts, state, model, begun.walls);
+
+    // Which do, under which law, and with what impulse to begin with?
+    if (observer) observer(Phase::assembly);
+    begun.survey = assemble_contacts(contacts, state, model, begun.walls);
+    return begun;
+}
+
 StepReport advance(State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer)
 {
     const double h = model.time_step;
@@ -88,15 +105,8 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
         if (observer) observer(phase);
     };
 
-    // Which spheres and walls can touch during this step?
-    enter(Phase::search);
-    renumber_along_curve(state, contacts, model);
-    const auto walls = place_walls(model.walls, model.periodicity, state.time, h);
-    const auto searched = update_candidates(contacts, state, model, walls);
-
-    // Which do, under which law, and with what impulse to begin with?
-    enter(Phase::assembly);
-    const auto survey = assemble_contacts(contacts, state, model, walls);
+    // Who touches whom, and under which law?
+    const BegunStep begun = begin_step(state, contacts, model, observer);
 
     // The velocity if nothing touched: v⁽¹⁾ = v⁽⁰⁾ + h M⁻¹ f.
     // Then the impulses of the last step: v ← v + M⁻¹ Gᵀ λ⁰.
@@ -122,7 +132,7 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
     enter(Phase::report);
     mark_leaving(state, model.outlets);
     const auto outcome = carry_impulses(contacts, state);
-    return make_report(searched, contacts, survey, solve, outcome, std::move(loads), survey_spheres(state, model));
+    return make_report(begun, contacts, solve, outcome, std::move(loads), survey_spheres(state, model));
 }
 
 } // namespace talus

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/contact_assembly.hpp"
 #include "core/contact_network.hpp"
 #include "core/diagnostics.hpp"
 #include "core/model.hpp"
+#include "core/placed_wall.hpp"
 #include "core/state.hpp"
 #include "core/wall_load.hpp"
 
@@ -41,6 +43,17 @@ struct StepReport {
     std::vector<WallLoad> wall_loads; ///< by wall; empty unless a sensor asks for them
     std::vector<Incident> incidents;  ///< empty in every healthy step
 };
+
+/// A step before its impulses: who touches whom, and under which law.
+struct BegunStep {
+    std::vector<PlacedWall> walls; ///< where they stand, and their mean velocities over the step
+    std::size_t searched = 0;      ///< spheres whose neighbours were searched anew
+    ContactSurvey survey;
+};
+
+/// The beginning of a step, from which `contacts` has the problem that the rest of it solves. Positions and velocities
+/// stay as they are; the spheres' order may change.
+BegunStep begin_step(State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer = {});
 
 /// Advances the state by one step h: velocities first, then positions.
 ///

@@ -12,6 +12,14 @@ namespace
 constexpr std::int64_t outlet_interval =
     10; ///< steps between two emptyings of the outlets, each of which renumbers all spheres
 
+/// Lets poured spheres in and takes away those that have been in an outlet.
+void let_in_and_out(Simulation& simulation)
+{
+    for (auto& source : simulation.pours) pour(source, simulation.state, simulation.model);
+    if (simulation.state.steps % outlet_interval == 0)
+        empty_outlets(simulation.outflow, simulation.state, simulation.contacts, simulation.model);
+}
+
 } // namespace
 
 void Simulation::persist(Archive& archive)
@@ -23,10 +31,14 @@ void Simulation::persist(Archive& archive)
 
 StepReport step(Simulation& simulation, const PhaseObserver& observer)
 {
-    for (auto& source : simulation.pours) pour(source, simulation.state, simulation.model);
-    if (simulation.state.steps % outlet_interval == 0)
-        empty_outlets(simulation.outflow, simulation.state, simulation.contacts, simulation.model);
+    let_in_and_out(simulation);
     return advance(simulation.state, simulation.contacts, simulation.model, observer);
+}
+
+BegunStep begin_step(Simulation& simulation)
+{
+    let_in_and_out(simulation);
+    return begin_step(simulation.state, simulation.contacts, simulation.model);
 }
 
 OverlapCheck check_overlaps(const Simulation& simulation)

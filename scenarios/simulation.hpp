@@ -41,6 +41,9 @@ struct Simulation {
 /// step. Contacts and spheres belong together until the next call.
 StepReport step(Simulation& simulation, const PhaseObserver& observer = {});
 
+/// The beginning of a step: spheres come and go, and `contacts` has the problem that the rest of it would solve.
+BegunStep begin_step(Simulation& simulation);
+
 /// What sensors look at after a step.
 inline Snapshot snapshot(const Simulation& simulation, const StepReport& report)
 {

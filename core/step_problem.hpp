@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/contact_network.hpp"
+#include "core/model.hpp"
+#include "core/multibody/problem.hpp"
+#include "core/state.hpp"
+
+namespace talus
+{
+
+/// The contact problem of one step in the words of the note.
+struct StepProblem {
+    multibody::Problem problem; ///< body i is sphere i: v and, where spheres turn, ω; contacts in the order of a sweep
+    Eigen::VectorXd warm_impulse; ///< λ⁰, carried over from the step before [N s; rolling rows N m s]
+};
+
+/// States the problem that a step is about to solve. The rows of a contact are its normal n (from b to a), two
+/// tangents, and two axes of rolling where the scene has rolling resistance. Prescribed velocities of walls stand in q.
+/// @pre begin_step has assembled the contacts; `state` has the velocities v⁽⁰⁾
+StepProblem make_step_problem(const State& state, const ContactNetwork& contacts, const Model& model);
+
+} // namespace talus

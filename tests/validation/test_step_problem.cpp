@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The sphere kernel against the note's general layer on steps of the supplied scenes.
+#include "core/gauss_seidel.hpp"
+#include "core/multibody/algorithm_3_1.hpp"
+#include "core/step_problem.hpp"
+#include "tests/validation/run_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace talus;
+using namespace talus::test;
+
+namespace
+{
+
+/// Velocities after the warm start and so many sweeps of the sphere kernel.
+std::vector<Motion> swept_by_kernel(const Simulation& simulation, int sweeps)
+{
+    auto motion = simulation.state.motion;
+    auto contacts = simulation.contacts;
+    const Model& model = simulation.model;
+    for (Motion& m : motion) m.velocity += model.time_step * model.gravity;
+    SolverSettings solver = model.solver;
+    solver.tolerance = 0.0;
+    solver.min_sweeps = solver.max_sweeps = sweeps;
+    solve_contacts(contacts, motion, model.physics, solver, apply_warm_start(contacts, motion, model.physics));
+    return motion;
+}
+
+/// Likewise by Algorithm 3.1 on general blocks.
+Eigen::VectorXd swept_by_blocks(const StepProblem& step, int sweeps)
+{
+    multibody::Iterate x(step.problem, step.warm_impulse);
+    solve_projected(x, {.tolerance = 0.0, .max_sweeps = sweeps});
+    return x.velocity();
+}
+
+/// The largest difference of velocities over the largest speed, and of spins likewise.
+double worst_difference(
+    const std::vector<Motion>& kernel, const multibody::Problem& problem, const Eigen::VectorXd& blocks)
+{
+    double difference = 0.0, spin_difference = 0.0, speed = 0.0, spin = 0.0;
+    for (std::size_t i = 0; i < kernel.size(); ++i) {
+        const auto own = problem.dofs_of(i, blocks);
+        difference = std::max(difference, (kernel[i].velocity - own.head<3>()).norm());
+        speed = std::max(speed, kernel[i].velocity.norm());
+        if (own.size() == 3) continue;
+        const Vec3 turning = kernel[i].rim_velocity / kernel[i].radius;
+        spin_difference = std::max(spin_difference, (turning - own.tail<3>()).norm());
+        spin = std::max(spin, turning.norm());
+    }
+    return std::max(difference / speed, spin > 0.0 ? spin_difference / spin : 0.0);
+}
+
+void compare(const std::string& scene, double time)
+{
+    CAPTURE(scene, time);
+    auto simulation = open_scene(scene);
+    run_until(simulation, time);
+    begin_step(simulation);
+    const auto step = make_step_problem(simulation.state, simulation.contacts, simulation.model);
+    REQUIRE(step.problem.constraints().size() > 500);
+    for (const int sweeps : {1, 2, 20})
+        CHECK(
+            worst_difference(swept_by_kernel(simulation, sweeps), step.problem, swept_by_blocks(step, sweeps)) < 1e-10);
+}
+
+} // namespace
+
+TEST_CASE("kernel and general layer give the same velocities, sweep by sweep", "[oracle]")
+{
+    compare("hopper", 0.1); // friction and restitution, walls of a mesh
+    compare("pile", 0.8);   // rolling resistance
+    compare("drum", 0.2);   // a wall that turns
+}
+
+TEST_CASE("kernel and general layer give the same velocities in full flow", "[oracle][slow]")
+{
+    compare("hopper", 2.0);
+    compare("pile", 2.0);
+    compare("drum", 2.0);
+}
