@@ -67,9 +67,11 @@ struct FclibProblem {
 /// @throws InputError where the file is missing, no HDF5 file or broken; lacks a group or dataset; holds a list of a
 ///   wrong length, an index out of range, a negative friction or a number that is not finite; has constraints in the
 ///   local form (V, R, s); or stores its numbers compressed or in chunks, which FCLIB never does
+///
+/// HDF5 crashes on some damaged files, so the file is first read in a copy of this process (fork) that may crash.
 FclibProblem read_fclib(const std::filesystem::path& path);
 
-/// The same of the bytes of a file.
+/// The same of the bytes of a file, without that copy.
 /// @param name with which the sentence of an error begins
 FclibProblem parse_fclib(const std::string& bytes, const std::string& name);
 

@@ -14,8 +14,7 @@ namespace talus
 namespace
 {
 
-constexpr int compressed_columns = -1;
-constexpr int compressed_rows = -2;
+constexpr int compressed_rows = -2; // in nz
 
 /// What a group holds: of every entry row and column, once pointers are spread.
 struct Entries {

@@ -504,6 +504,17 @@ TEST_CASE("a file that was cut is refused, wherever it was cut", "[fclib]")
     }
 }
 
+TEST_CASE("a file on which HDF5 crashes is refused", "[fclib]")
+{
+    std::string bytes = bytes_of(local_content());
+    const std::size_t heap = bytes.find("HEAP"); // of the names in the first group
+    REQUIRE(heap != std::string::npos);
+    bytes.replace(heap + 24, 8, 8, '\xff'); // the address of its data is none: release 1.10.8 crashes
+    const SceneFolder folder;
+    const auto path = folder.write("p.hdf5", bytes);
+    CHECK_THAT(folder.without_folder(error_of<InputError>([&] { read_fclib(path); })), Catch::StartsWith("p.hdf5: "));
+}
+
 TEST_CASE("a dataset that is not plainly stored is refused before any room is made for it", "[fclib]")
 {
     const std::string q = "/fclib_local/vectors/q";
