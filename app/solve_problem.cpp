@@ -66,7 +66,7 @@ template <class AnyIterate, class Solve>
 TimedReport timed(const AnyIterate& x, const std::filesystem::path& history_path, Solve&& solve)
 {
     std::optional<History> history;
-    if (!history_path.empty()) history.emplace(history_path).add(0, 0.0, x);
+    if (!history_path.empty()) history.emplace(history_path);
     StopWatch watch;
     SweepObserver observer;
     if (history)
