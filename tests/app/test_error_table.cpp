@@ -74,6 +74,13 @@ Situation pour(const std::string& text, const std::string& keys)
         check};
 }
 
+/// A contact problem of others. @param before "{}" stands for its file
+Situation problem(const std::string& text, std::string before, const std::string& arguments)
+{
+    return {text, before.replace(before.find("{}"), 2, TALUS_SOURCE_DIR "/tests/data/fclib/local_problem_test.hdf5"),
+        arguments};
+}
+
 Situation sensor(const std::string& text, const std::string& keys)
 {
     return {text, "printf '[[sensor]]\\nname = \"s\"\\n" + keys + "\\n' >> scene.toml", check};
@@ -227,6 +234,16 @@ const std::vector<Situation> situations = {
     {"a folder that cannot be made", "touch file", "run scene.toml -o file/out"},
     {"a log file that cannot be written", "", run + " --log-file nowhere/log"},
     {"a disk that is full", "trap \"\" XFSZ; ulimit -f 16", run + " --set time.metrics_interval=1e-4"},
+    {"a dump without a time", "", "dump scene.toml -o step.hdf5"},
+    {"a dump into a folder that is not there", "", "dump scene.toml --at 0.02 -o nowhere/step.hdf5 --quiet"},
+    {"a problem that is not there", "", "solve nowhere.hdf5"},
+    {"a problem that is no HDF5 file", "", "solve scene.toml"},
+    problem("a problem that was cut", "head -c 20000 {} > p.hdf5", "solve p.hdf5"),
+    problem("an algorithm for equalities", "cp {} p.hdf5", "solve p.hdf5 --algorithm 2.1 --quiet"),
+    problem("a guess that is not there", "cp {} p.hdf5", "solve p.hdf5 --guess 7 --quiet"),
+    problem("an unknown local solve", "cp {} p.hdf5", "solve p.hdf5 --local newton"),
+    problem("a relaxation out of range", "cp {} p.hdf5", "solve p.hdf5 --omega 2"),
+    problem("a tolerance that is not met", "cp {} p.hdf5", "solve p.hdf5 --max-sweeps 3 --quiet"),
 };
 
 /// The text without what differs from place to place and from release to release.
