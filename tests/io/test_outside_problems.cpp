@@ -27,8 +27,9 @@ Vector3d on_cone(const Vector3d& z, double friction)
     return nearest;
 }
 
-/// ‖r − P(r − ũ/D_nn)‖/‖r‖ with ũ = u + μ|u_t| n (de Saxcé): the measure of the published sweep counts.
-template <class AnyIterate> double de_saxce_error(const AnyIterate& x, const DiagonalBlocks& blocks)
+/// ‖r − P(r − ũ/scale)‖ with ũ = u + μ|u_t| n (de Saxcé).
+/// @param scale by row, of which that of the normal is taken
+template <class AnyIterate> double de_saxce_map(const AnyIterate& x, const VectorXd& scale)
 {
     double change = 0.0;
     VectorXd u(3);
@@ -37,9 +38,15 @@ template <class AnyIterate> double de_saxce_error(const AnyIterate& x, const Dia
         x.residual_of(k, u);
         u[0] += contact.friction * u.tail<2>().norm();
         const Vector3d r = x.impulse().template segment<3>(contact.first_row);
-        change += (r - on_cone(r - u / blocks.scale()[contact.first_row], contact.friction)).squaredNorm();
+        change += (r - on_cone(r - u / scale[contact.first_row], contact.friction)).squaredNorm();
     }
-    return std::sqrt(change) / x.impulse().norm();
+    return std::sqrt(change);
+}
+
+/// Scaled with D_nn and relative to ‖r‖: the measure of the published sweep counts.
+template <class AnyIterate> double de_saxce_error(const AnyIterate& x, const DiagonalBlocks& blocks)
+{
+    return de_saxce_map(x, blocks.scale()) / x.impulse().norm();
 }
 
 /// The sweeps after which the error is first at most each of these, as many as the cap allows.
@@ -116,6 +123,20 @@ TEST_CASE("outside problems: (18)-(19) and (20)-(21) stall where blocks are coup
     CAPTURE(row.name, row.error);
     CHECK(sweeps_needed(row.name, {row.error}, 1000, LocalSolve::block).size() == (row.by_block ? 1u : 0u));
     CHECK(sweeps_needed(row.name, {row.error}, 1000, LocalSolve::sliding).size() == (row.along_sliding ? 1u : 0u));
+}
+
+TEST_CASE("an error that adds velocities to impulses may look small where the solution is useless", "[multibody]")
+{
+    // Acary, Brémond & Huber 2017: ‖r − P(r − ũ)‖/‖q‖, in which a change of units changes everything.
+    const auto file = read_fclib(data(confeti));
+    const auto problem = assembled(file, confeti);
+    AssembledIterate x(problem);
+    solve_projected(x, {.tolerance = 0.0, .max_sweeps = 1000, .local = LocalSolve::block});
+    CHECK(de_saxce_map(x, VectorXd::Ones(problem.target.size())) /
+              std::max({file.q.norm(), x.impulse().norm(), (file.W * x.impulse() + file.q).norm()}) <
+          1e-4);
+    CHECK(measure_errors(x).natural_map > 0.5);
+    CHECK(measure_errors(x).worst_velocity_error > 500.0);
 }
 
 TEST_CASE("the chute, with rolling rows, is solved", "[multibody]")

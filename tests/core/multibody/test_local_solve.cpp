@@ -143,6 +143,17 @@ TEST_CASE("(18)-(19) and (20)-(21) do not obey Coulomb's law in coupled blocks",
     CHECK(out_of_line(LocalSolve::sequential) < 1e-10);
 }
 
+TEST_CASE("the sign of (18)'s normal impulse does not tell whether a coupled contact closes", "[multibody][note]")
+{
+    // Left alone the contact closes, b_n < 0; to stick it would have to be pulled, z₁ < 0 in (18). It slides.
+    const MatrixXd D = (MatrixXd(3, 3) << 1.0, 0.9, 0.0, 0.9, 1.0, 0.0, 0.0, 0.0, 1.0).finished();
+    const VectorXd b = Eigen::Vector3d(-0.1, -1.0, 0.0);
+    REQUIRE((-D.inverse() * b)[0] < 0.0);
+    const auto normal_velocity = [&](LocalSolve how) { return (D * solved(how, contact(0.2), D, b, 500) + b)[0]; };
+    CHECK(normal_velocity(LocalSolve::block) == b[0]); // goes on to close
+    CHECK(std::abs(normal_velocity(LocalSolve::sequential)) < 1e-12);
+}
+
 TEST_CASE("(21) falls back on (19) where its denominator is not positive", "[multibody][note]")
 {
     // d₁₁ + μ d₁₂ w₁ < 0: a rod that jams, Painlevé 1895.
