@@ -93,13 +93,17 @@ struct Found {
     std::vector<std::size_t> constraints; ///< that touch it
 };
 
+/// Larger ones would hold entries by the square of their size.
+constexpr std::size_t most_dofs_put_together = 12;
+
 std::vector<Found> find_bodies(const MatrixProblem& p)
 {
     const auto touched_by = touching(p);
     std::vector<Found> bodies;
     for (Dofs& dofs : coupled_dofs(p.mass)) {
         auto constraints = constraints_on(dofs, touched_by);
-        if (!bodies.empty() && !constraints.empty() && bodies.back().constraints == constraints)
+        const bool fits = !bodies.empty() && bodies.back().dofs.size() + dofs.size() <= most_dofs_put_together;
+        if (fits && !constraints.empty() && bodies.back().constraints == constraints)
             bodies.back().dofs.insert(bodies.back().dofs.end(), dofs.begin(), dofs.end());
         else
             bodies.push_back({std::move(dofs), std::move(constraints)});
@@ -128,6 +132,17 @@ void require_mass(const MatrixXd& mass, Index row)
     if (symmetric.llt().info() != Eigen::Success) throw problem("positive definite");
 }
 
+/// The blocks of M are kept dense, so M must not be much sparser than they are.
+void require_bodies(const std::vector<Found>& bodies, Index entries)
+{
+    constexpr double always_allowed = 1e6, allowed_for_an_entry = 64.0; // some finite elements have 80 entries in a row
+    double dense = 0.0;
+    for (const auto& body : bodies) dense += static_cast<double>(body.dofs.size() * body.dofs.size());
+    if (dense > std::max(always_allowed, allowed_for_an_entry * static_cast<double>(entries)))
+        throw std::domain_error("the mass matrix couples too many degrees of freedom with each other: its blocks are "
+                                "taken as dense");
+}
+
 /// p_b and M_bb of a body.
 void add_body(Problem& problem, const MatrixProblem& p, const Dofs& dofs)
 {
@@ -148,6 +163,7 @@ VectorXd ProblemWithBodies::in_order_of_matrices(const VectorXd& velocity) const
 ProblemWithBodies with_bodies(const MatrixProblem& p)
 {
     const auto bodies = find_bodies(p);
+    require_bodies(bodies, p.mass.nonZeros());
     ProblemWithBodies result;
     std::vector<std::vector<std::size_t>> bodies_of(p.constraints.size());
     for (std::size_t b = 0; b < bodies.size(); ++b) {

@@ -31,7 +31,8 @@ struct ProblemWithBodies {
 
 /// Finds bodies: degrees of freedom that M couples belong to one, and neighbours that the same constraints touch are
 /// put together, for long blocks are swept faster than short ones.
-/// @throws std::domain_error where M is not symmetric (to 1 %) or not positive definite, with its row
+/// @throws std::domain_error where M is not symmetric (to 1 %) or not positive definite, with its row, or couples so
+/// many degrees of freedom that dense blocks would be far larger than M
 ProblemWithBodies with_bodies(const MatrixProblem& matrices);
 
 } // namespace talus::multibody

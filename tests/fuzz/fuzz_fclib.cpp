@@ -1,16 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/fclib.hpp"
+#include "core/multibody/algorithm_3_1.hpp"
+#include "io/fclib_problem.hpp"
 #include "io/input_error.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
 
-/// Any bytes are either a problem or refused with a sentence.
+namespace
+{
+
+constexpr talus::multibody::SolveSettings few_sweeps{.max_sweeps = 3};
+
+void solve(const talus::FclibProblem& file)
+{
+    if (file.form == talus::FclibForm::local) {
+        const auto problem = talus::assembled(file, "fuzzed.hdf5");
+        talus::multibody::AssembledIterate x(problem);
+        solve_projected(x, few_sweeps);
+    } else {
+        const auto bodies = talus::with_bodies(file, "fuzzed.hdf5");
+        talus::multibody::Iterate x(bodies.problem);
+        solve_projected(x, few_sweeps);
+    }
+}
+
+} // namespace
+
+/// Any bytes are either a problem, which can be swept, or refused with a sentence.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size)
 {
     try {
-        talus::parse_fclib(std::string(reinterpret_cast<const char*>(bytes), size), "fuzzed.hdf5");
+        solve(talus::parse_fclib(std::string(reinterpret_cast<const char*>(bytes), size), "fuzzed.hdf5"));
     } catch (const talus::InputError&) {
     }
     return 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/multibody/algorithm_3_1.hpp"
 #include "io/fclib_problem.hpp"
+#include "io/input_error.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -169,6 +170,44 @@ TEST_CASE("a global problem and its assembled twin take the same way", "[multibo
     solve_projected(x, some);
     solve_projected(y, some);
     CHECK((x.impulse() - y.impulse()).norm() < 1e-10 * x.impulse().norm());
+}
+
+TEST_CASE("matrices that are no masses are refused with a sentence", "[fclib][errors]")
+{
+    FclibProblem file;
+    file.form = FclibForm::global;
+    const int dofs = 2000;
+    file.M.resize(dofs, dofs);
+    for (int i = 0; i < dofs; ++i) file.M.insert(i, i) = 1.0;
+    file.H.resize(dofs, 3);
+    for (int i = 0; i < 3; ++i) file.H.insert(i, i) = 1.0;
+    file.f = VectorXd::Zero(dofs);
+    file.w = VectorXd::Zero(3);
+    file.mu = VectorXd::Ones(1);
+    const auto refused = [&](const FclibProblem& broken) -> std::string {
+        try {
+            with_bodies(broken, "p.hdf5");
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    CHECK(refused(file).empty());
+
+    FclibProblem broken = file;
+    broken.M.coeffRef(7, 7) = -1.0;
+    CHECK(refused(broken) == "p.hdf5: the mass matrix is not positive definite (block of row 7)");
+    broken = file;
+    broken.M.insert(4, 3) = 0.5;
+    CHECK(refused(broken) == "p.hdf5: the mass matrix is not symmetric (block of row 3)");
+    broken = file;
+    broken.H.coeffRef(2, 2) = 0.0;
+    CHECK(refused(broken) == "p.hdf5: contact 0 has a row in which its own reaction changes no velocity (diagonal of W "
+                             "not positive); it joins bodies that cannot move");
+    broken = file; // a chain through all of them: a dense block would have a million entries and more
+    for (int i = 1; i < dofs; ++i) broken.M.insert(i, i - 1) = broken.M.insert(i - 1, i) = 0.1;
+    CHECK(refused(broken) ==
+          "p.hdf5: the mass matrix couples too many degrees of freedom with each other: its blocks are taken as dense");
 }
 
 TEST_CASE("what is written in FCLIB's words comes back as the same problem, compliance and all", "[multibody][fclib]")
