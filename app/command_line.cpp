@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -153,7 +152,7 @@ void add_choice(CLI::App& verb, const char* name, Enum& value, const std::vector
             },
             help)
         ->check(CLI::IsMember(names))
-        ->type_name(fmt::format("{}", fmt::join(names, "|")));
+        ->type_name("NAME");
 }
 
 void add_method_options(CLI::App& verb, SolveRequest& solve)
