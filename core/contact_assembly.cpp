@@ -174,56 +174,128 @@ ContactSurvey assemble_sphere_contacts(
     return assembly.result();
 }
 
+/// Finds the contacts of wall pairs and hands them to an assembly.
+class WallDetection
+{
+public:
+    WallDetection(ContactNetwork& network, const State& state, const Model& model, const std::vector<PlacedWall>& walls,
+        const StepConstants& step)
+        : network_(network), state_(state), model_(model), walls_(walls), step_(step)
+    {
+    }
+
+    /// The contacts of one pair. Calls note(point, shift) for each that is added: where the wall is touched, seen from
+    /// the image of the sphere that is shifted so.
+    template <class Note> void add_contacts(WallPair& pair, TileAssembly& assembly, Note&& note)
+    {
+        const PlacedWall& wall = walls_[pair.wall];
+        // The image of the sphere for which the patches are listed.
+        const Vec3& x = state_.position[pair.sphere];
+        const Vec3 shift = model_.periodicity.shift_towards(x, network_.listed_box[pair.sphere].center());
+        find_points(pair, wall, x + shift);
+        match_carried(network_, pair, points_);
+        for (std::size_t k = 0; k < points_.size(); ++k) {
+            add(pair, wall, points_[k], pair.first + static_cast<std::uint32_t>(k), x + shift, assembly);
+            note(points_[k], shift);
+        }
+    }
+
+private:
+    ContactNetwork& network_;
+    const State& state_;
+    const Model& model_;
+    const std::vector<PlacedWall>& walls_;
+    const StepConstants& step_;
+    std::vector<WallPoint> points_;
+
+    /// @param x the sphere's centre
+    static WallRow wall_row(const PlacedWall& wall, const WallPoint& at, const Vec3& x, double radius)
+    {
+        if (!wall.moves()) return {};
+        return {wall.velocity(static_cast<std::size_t>(at.patch), x - radius * at.normal), wall.spin()};
+    }
+
+    void find_points(const WallPair& pair, const PlacedWall& wall, const Vec3& x)
+    {
+        points_.clear();
+        if (!wall.stands()) return;
+        const Motion& m = state_.motion[pair.sphere];
+        const Vec3 ahead = m.velocity + step_.h * model_.gravity;
+        const double wall_speed = wall.moves() ? wall.fastest(Box{x, x}.grown(m.radius)) : 0.0;
+        const double reach = std::max(step_.reach, closing_horizon * step_.h * (ahead.norm() + wall_speed));
+        find_wall_points(wall, network_.patches.data() + pair.first, pair.patches, x, m.radius + reach, points_);
+        std::erase_if(points_, [&](const WallPoint& at) {
+            const Vec3 wall_ahead = wall_row(wall, at, x, m.radius).velocity + wall.gain();
+            return !within_reach(at.distance - m.radius, at.normal.dot(ahead - wall_ahead), step_);
+        });
+    }
+
+    void add(const WallPair& pair, const PlacedWall& wall, const WallPoint& at, std::uint32_t slot, const Vec3& x,
+        TileAssembly& assembly)
+    {
+        const Motion& m = state_.motion[pair.sphere];
+        const Vec3& n = at.normal;
+        const double gap = at.distance - m.radius;
+        const WallRow row = wall_row(wall, at, x, m.radius);
+        const double u_n = n.dot(m.velocity - row.velocity);
+        assembly.add({.a = pair.sphere,
+                         .b = pair.wall,
+                         .normal = n,
+                         .gap = gap,
+                         .u_n = u_n,
+                         .u_n_ahead = u_n + step_.h * n.dot(model_.gravity) - n.dot(wall.gain()),
+                         .arm_scale = 1.0,
+                         .inverse_mass_sum = m.inverse_mass + inverse_mass(wall),
+                         .rolling_radius = m.radius,
+                         .inverse_inertia_sum = inverse_inertia(m),
+                         .slot = slot,
+                         .wall = row},
+            model_.materials.between(state_.material[pair.sphere], wall.wall().material),
+            n.dot(state_.position[pair.sphere]) - gap + way_ahead(wall, n, row));
+    }
+
+    double inverse_mass(const PlacedWall& wall) const
+    {
+        return wall.is_piston() ? 1.0 / model_.pistons[wall.wall().piston].mass : 0.0;
+    }
+
+    /// By how much the wall's level rises in the step, where that is known beforehand [m].
+    double way_ahead(const PlacedWall& wall, const Vec3& normal, const WallRow& row) const
+    {
+        return wall.is_piston() ? 0.0 : step_.h * normal.dot(row.velocity);
+    }
+};
+
 ContactSurvey assemble_wall_contacts(ContactNetwork& network, std::size_t tile, const State& state, const Model& model,
     const std::vector<PlacedWall>& walls, const StepConstants& step)
 {
     TileAssembly assembly(network.wall_contacts, network.wall_carried, network.wall_slots_of_tile[tile], model, step);
-    std::vector<WallPoint> points;
+    WallDetection detection(network, state, model, walls, step);
     for (auto p = network.wall_pairs_of_tile[tile]; p < network.wall_pairs_of_tile[tile + 1]; ++p) {
         auto& pair = network.wall_pairs[p];
-        const PlacedWall& wall = walls[pair.wall];
-        const Motion& m = state.motion[pair.sphere];
-        const Vec3& x = state.position[pair.sphere];
-        // The image of the sphere for which the patches are listed.
-        const Vec3 shift = model.periodicity.shift_towards(x, network.listed_box[pair.sphere].center());
-        const auto wall_row = [&](const WallPoint& at) -> WallRow {
-            if (!wall.moves()) return {};
-            return {wall.velocity(static_cast<std::size_t>(at.patch), x + shift - m.radius * at.normal), wall.spin()};
-        };
-        points.clear();
-        if (wall.stands()) {
-            const Vec3 ahead = m.velocity + step.h * model.gravity;
-            const double wall_speed = wall.moves() ? wall.fastest(Box{x, x}.shifted(shift).grown(m.radius)) : 0.0;
-            const double reach = std::max(step.reach, closing_horizon * step.h * (ahead.norm() + wall_speed));
-            find_wall_points(
-                wall, network.patches.data() + pair.first, pair.patches, x + shift, m.radius + reach, points);
-            std::erase_if(points, [&](const WallPoint& at) {
-                return !within_reach(at.distance - m.radius, at.normal.dot(ahead - wall_row(at).velocity), step);
-            });
-        }
-        match_carried(network, pair, points);
-        for (std::size_t k = 0; k < points.size(); ++k) {
-            const Vec3& n = points[k].normal;
-            const double gap = points[k].distance - m.radius;
-            const WallRow row = wall_row(points[k]);
-            const double u_n = n.dot(m.velocity - row.velocity);
-            assembly.add({.a = pair.sphere,
-                             .b = pair.wall,
-                             .normal = n,
-                             .gap = gap,
-                             .u_n = u_n,
-                             .u_n_ahead = u_n + step.h * n.dot(model.gravity),
-                             .arm_scale = 1.0,
-                             .inverse_mass_sum = m.inverse_mass,
-                             .rolling_radius = m.radius,
-                             .inverse_inertia_sum = inverse_inertia(m),
-                             .slot = pair.first + static_cast<std::uint32_t>(k),
-                             .wall = row},
-                model.materials.between(state.material[pair.sphere], wall.wall().material),
-                n.dot(x) - gap + step.h * n.dot(row.velocity));
-        }
+        if (!walls[pair.wall].is_piston()) detection.add_contacts(pair, assembly, [](const WallPoint&, const Vec3&) {});
     }
     assembly.finish(tile);
+    return assembly.result();
+}
+
+/// The contacts with all pistons, in the order of the wall pairs.
+ContactSurvey assemble_piston_contacts(ContactNetwork& network, const State& state, const Model& model,
+    const std::vector<PlacedWall>& walls, const StepConstants& step)
+{
+    TileAssembly assembly(network.piston_contacts, network.wall_carried, 0, model, step);
+    WallDetection detection(network, state, model, walls, step);
+    std::size_t contacts = 0;
+    for (auto& pair : network.wall_pairs) {
+        const PlacedWall& wall = walls[pair.wall];
+        if (!wall.is_piston()) continue;
+        const Vec3 center = wall.pose()(model.pistons[wall.wall().piston].center);
+        detection.add_contacts(pair, assembly, [&](const WallPoint& at, const Vec3& shift) {
+            const Vec3 place = state.position[pair.sphere] + shift - state.radius(pair.sphere) * at.normal;
+            network.piston_arms[contacts++] = place - wall.image_of(static_cast<std::size_t>(at.patch)) - center;
+        });
+    }
+    assembly.finish(0);
     return assembly.result();
 }
 
@@ -244,6 +316,12 @@ double carry(const ContactArrays& arrays, std::size_t first, std::size_t count, 
             carried.rolling_impulse[geometry.slot] = keeps ? arrays.rolling[k].impulse : Vec3::Zero().eval();
     }
     return worst;
+}
+
+void note_walls_touched(const ContactArrays& arrays, std::size_t first, std::size_t count, State& state)
+{
+    for (std::size_t k = first; k < first + count; ++k)
+        if (!arrays.contact[k].impulse.isZero(0.0)) state.last_wall[arrays.contact[k].a] = arrays.contact[k].b;
 }
 
 } // namespace
@@ -274,6 +352,7 @@ ContactSurvey assemble_contacts(
     }
     ContactSurvey all;
     for (const auto& survey : surveys) all += survey;
+    if (model.physics.pistons) all += assemble_piston_contacts(network, state, model, walls, step);
     return all;
 }
 
@@ -295,14 +374,19 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state)
             if (!walls.wall.empty()) outcome.wall_work += walls.contact[k].impulse.dot(walls.wall[k].velocity);
             if (!walls.wall.empty() && !walls.rolling.empty())
                 outcome.wall_work += walls.rolling[k].impulse.dot(walls.wall[k].spin);
-            if (!walls.contact[k].impulse.isZero(0.0)) state.last_wall[walls.contact[k].a] = walls.contact[k].b;
         }
+        note_walls_touched(walls, first, walls.count[tile], state);
     }
     ContactOutcome all;
     for (const auto& outcome : outcomes) {
         all.cone_violation = std::max(all.cone_violation, outcome.cone_violation);
         all.wall_impulse += outcome.wall_impulse;
         all.wall_work += outcome.wall_work;
+    }
+    if (!network.piston_contacts.contact.empty()) {
+        const auto& pistons = network.piston_contacts;
+        all.cone_violation = std::max(all.cone_violation, carry(pistons, 0, pistons.count[0], network.wall_carried));
+        note_walls_touched(pistons, 0, pistons.count[0], state);
     }
     return all;
 }

@@ -22,7 +22,7 @@ struct ContactSurvey {
 
 /// Turns the candidates that touch, or will within this step and a half, into the contacts of this step's problem:
 /// normal, law (stabilisation.hpp), effective masses, and the impulse carried over, put back into the new tangent plane
-/// and cone. Reads v⁽⁰⁾: gravity has not been added yet. Tiles in parallel.
+/// and cone. Reads v⁽⁰⁾: gravity has not been added yet. Tiles in parallel, pistons after them.
 /// @param walls as they stand now, with their velocity over the step
 ContactSurvey assemble_contacts(
     ContactNetwork& network, const State& state, const Model& model, const std::vector<PlacedWall>& walls);
@@ -30,7 +30,7 @@ ContactSurvey assemble_contacts(
 /// What is handed on to the next step, read from the solved contacts.
 struct ContactOutcome {
     double cone_violation = 0.0;      ///< worst |λ_t| − μ λ_n [N s], 0 if none
-    Vec3 wall_impulse = Vec3::Zero(); ///< Σ λ over the wall contacts [N s]
+    Vec3 wall_impulse = Vec3::Zero(); ///< Σ λ over the contacts with walls that are not pistons [N s]
     double wall_work = 0.0;           ///< what moving walls did on the spheres, Σ λ·w and rolling rows likewise [J]
 };
 

@@ -39,6 +39,9 @@ void ContactNetwork::resize_contacts(const ModelledPhysics& physics)
 {
     sphere_contacts.resize(pairs.size(), tiles.count(), physics.rolling, false);
     wall_contacts.resize(patches.size(), tiles.count(), physics.rolling, physics.moving_walls);
+    const auto piston_slots = physics.pistons ? patches.size() : 0;
+    piston_contacts.resize(piston_slots, 1, physics.rolling);
+    piston_arms.resize(piston_slots);
 }
 
 void ContactNetwork::persist(Archive& archive)

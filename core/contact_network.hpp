@@ -75,7 +75,9 @@ struct ContactNetwork {
     std::vector<Vec3> wall_carried_normal; ///< by slot: the normal by which the next step knows a wall contact again
 
     ContactArrays sphere_contacts; ///< tile t from pairs_of_tile[t] on
-    ContactArrays wall_contacts;   ///< tile t from wall_slots_of_tile[t] on
+    ContactArrays wall_contacts;   ///< tile t from wall_slots_of_tile[t] on, without those with pistons …
+    ContactArrays piston_contacts; ///< … which one thread takes after the tiles: count has one entry
+    std::vector<Vec3> piston_arms; ///< from the centre of the piston to where the contact is [m]
 
     /// Makes room for the contacts of a step: as many as there are slots.
     void resize_contacts(const ModelledPhysics& physics);

@@ -22,9 +22,9 @@ std::optional<Incident::Kind> incident_of(const State& state, const Model& model
     return std::nullopt;
 }
 
-SphereSurvey survey_block(const State& state, const Model& model, std::size_t begin, std::size_t end)
+StateSurvey survey_block(const State& state, const Model& model, std::size_t begin, std::size_t end)
 {
-    SphereSurvey survey;
+    StateSurvey survey;
     const Vec3 along = model.periodicity.part_along(model.gravity); // there is no height on these axes
     for (std::size_t i = begin; i < end; ++i) {
         const auto& m = state.motion[i];
@@ -38,6 +38,30 @@ SphereSurvey survey_block(const State& state, const Model& model, std::size_t be
             survey.incidents.push_back({*kind, state.id[i], state.position[i], speed, state.last_wall[i]});
     }
     return survey;
+}
+
+std::optional<Incident::Kind> incident_of(const PistonState& state, const Vec3& center, const Model& model)
+{
+    if (!(center.allFinite() && state.velocity.allFinite() && state.spin.allFinite()))
+        return Incident::Kind::not_a_number;
+    if (state.velocity.norm() > model.speed_limit) return Incident::Kind::blow_up;
+    if (!model.world.contains(center)) return Incident::Kind::escaped;
+    return std::nullopt;
+}
+
+/// Of the smallest spheres that it may meet.
+constexpr double longest_piston_move = 0.1;
+
+void survey_piston(const Piston& piston, const PistonState& state, const Model& model, StateSurvey& survey)
+{
+    const Vec3 center = state.pose(piston.center);
+    const double speed = state.velocity.norm();
+    survey.kinetic_energy += kinetic_energy(piston, state);
+    survey.potential_energy -= piston.mass * model.gravity.dot(center);
+    survey.fastest_speed = std::max(survey.fastest_speed, speed);
+    if (speed * model.time_step > longest_piston_move * model.min_diameter) ++survey.long_moves;
+    if (const auto kind = incident_of(state, center, model))
+        survey.incidents.push_back({*kind, -1, center, speed, static_cast<std::int32_t>(piston.wall)});
 }
 
 } // namespace
@@ -80,17 +104,17 @@ Vec3 angular_momentum(const State& state)
     return sum;
 }
 
-SphereSurvey survey_spheres(const State& state, const Model& model)
+StateSurvey survey_state(const State& state, const Model& model)
 {
     const std::size_t blocks = (state.count() + block - 1) / block;
-    std::vector<SphereSurvey> of_block(blocks);
+    std::vector<StateSurvey> of_block(blocks);
 #pragma omp parallel for schedule(static) if (blocks > 1)
     for (std::int64_t b = 0; b < static_cast<std::int64_t>(blocks); ++b) {
         const auto begin = static_cast<std::size_t>(b) * block;
         of_block[static_cast<std::size_t>(b)] =
             survey_block(state, model, begin, std::min(begin + block, state.count()));
     }
-    SphereSurvey all;
+    StateSurvey all;
     for (const auto& part : of_block) {
         all.kinetic_energy += part.kinetic_energy;
         all.potential_energy += part.potential_energy;
@@ -99,6 +123,8 @@ SphereSurvey survey_spheres(const State& state, const Model& model)
         all.long_moves += part.long_moves;
         all.incidents.insert(all.incidents.end(), part.incidents.begin(), part.incidents.end());
     }
+    for (std::size_t k = 0; k < model.pistons.size(); ++k)
+        survey_piston(model.pistons[k], state.pistons[k], model, all);
     return all;
 }
 

@@ -51,24 +51,34 @@ template <class R> SweepSums warm_start_tile(ContactNetwork& network, std::size_
     return sums;
 }
 
-/// Sum of the tiles' sums in tile order, so that it has the same bits whichever thread made which part.
-SweepSums total(const std::vector<SweepSums>& of_tile)
-{
-    SweepSums sum;
-    for (const auto& part : of_tile) sum += part;
-    return sum;
-}
+/// The sums of each tile, and those of the pistons.
+struct PartialSums {
+    std::vector<SweepSums> of_tile;
+    SweepSums of_pistons;
+
+    explicit PartialSums(std::size_t tiles) : of_tile(tiles) {}
+
+    /// Added up in tile order, so that it has the same bits whichever thread made which part.
+    SweepSums total() const
+    {
+        SweepSums sum;
+        for (const auto& part : of_tile) sum += part;
+        sum += of_pistons;
+        return sum;
+    }
+};
 
 template <class R> double apply_warm_start(ContactNetwork& network, Motion* motion)
 {
-    std::vector<SweepSums> of_tile(network.tiles.count());
-    const auto work = [&](std::size_t tile) { of_tile[tile] = warm_start_tile<R>(network, tile, motion); };
+    PartialSums sums(network.tiles.count());
+    const auto work = [&](std::size_t tile) { sums.of_tile[tile] = warm_start_tile<R>(network, tile, motion); };
     with_tile_crew(network.tiles, [&](TileCrew& crew) { crew.color_by_color(work); });
-    return total(of_tile).size;
+    return sums.total().size;
 }
 
 template <class R>
-SolveReport solve(ContactNetwork& network, Motion* motion, const SolverSettings& solver, double warm_size)
+SolveReport solve(
+    ContactNetwork& network, PistonGroup& pistons, Motion* motion, const SolverSettings& solver, double warm_size)
 {
     const auto tiles = network.tiles.count();
     const auto residual = [&](const SweepSums& sums) {
@@ -76,25 +86,29 @@ SolveReport solve(ContactNetwork& network, Motion* motion, const SolverSettings&
         return sums.change == 0.0 ? 0.0 : std::sqrt(sums.change / size);
     };
     // Two sets of partial sums in turn: a slow thread may still read one sweep's while a fast one writes the next.
-    std::array<std::vector<SweepSums>, 2> swept{std::vector<SweepSums>(tiles), std::vector<SweepSums>(tiles)};
-    std::vector<SweepSums> measured(tiles);
+    std::array<PartialSums, 2> swept{PartialSums(tiles), PartialSums(tiles)};
+    PartialSums measured(tiles);
     SolveReport report;
     with_tile_crew(network.tiles, [&](TileCrew& crew) {
         // Every thread goes through the same loop with the same numbers.
         int sweeps = 0;
         double change = infinity, error = infinity;
         while (error > solver.tolerance && sweeps < solver.max_sweeps) {
-            auto& of_tile = swept[static_cast<std::size_t>(sweeps % 2)];
-            crew.color_by_color([&](std::size_t tile) { of_tile[tile] = relax_tile<R, true>(network, tile, motion); });
+            auto& sums = swept[static_cast<std::size_t>(sweeps % 2)];
+            crew.color_by_color(
+                [&](std::size_t tile) { sums.of_tile[tile] = relax_tile<R, true>(network, tile, motion); });
+            if (!pistons.empty()) crew.by_one([&] { sums.of_pistons = pistons.sweep(motion); });
             ++sweeps;
             // ε after a sweep is about what the next sweep would change: as much less as this one changed less than the
             // last.
-            const double last_change = std::exchange(change, residual(total(of_tile)));
+            const double last_change = std::exchange(change, residual(sums.total()));
             const double expected = change < last_change ? change * change / last_change : change;
             const bool ready = sweeps >= solver.min_sweeps && (expected <= solver.tolerance || change == 0.0);
             if (!ready && sweeps < solver.max_sweeps) continue;
-            crew.all_at_once([&](std::size_t tile) { measured[tile] = relax_tile<R, false>(network, tile, motion); });
-            error = residual(total(measured));
+            crew.all_at_once(
+                [&](std::size_t tile) { measured.of_tile[tile] = relax_tile<R, false>(network, tile, motion); });
+            if (!pistons.empty()) crew.by_one([&] { measured.of_pistons = pistons.measure(motion); });
+            error = residual(measured.total());
         }
 #pragma omp single nowait
         report = {sweeps, error, error <= solver.tolerance};
@@ -118,16 +132,19 @@ template <class Work> auto with_rows(const ModelledPhysics& physics, Work&& work
 
 } // namespace
 
-double apply_warm_start(ContactNetwork& network, std::vector<Motion>& motion, const ModelledPhysics& physics)
+double apply_warm_start(
+    ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion, const ModelledPhysics& physics)
 {
-    return with_rows(physics, [&](auto rows) { return apply_warm_start<decltype(rows)>(network, motion.data()); });
+    const double of_tiles =
+        with_rows(physics, [&](auto rows) { return apply_warm_start<decltype(rows)>(network, motion.data()); });
+    return of_tiles + pistons.warm_start(motion.data());
 }
 
-SolveReport solve_contacts(ContactNetwork& network, std::vector<Motion>& motion, const ModelledPhysics& physics,
-    const SolverSettings& solver, double warm_size)
+SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
+    const ModelledPhysics& physics, const SolverSettings& solver, double warm_size)
 {
     return with_rows(
-        physics, [&](auto rows) { return solve<decltype(rows)>(network, motion.data(), solver, warm_size); });
+        physics, [&](auto rows) { return solve<decltype(rows)>(network, pistons, motion.data(), solver, warm_size); });
 }
 
 } // namespace talus

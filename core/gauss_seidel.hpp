@@ -3,6 +3,7 @@
 
 #include "core/contact_network.hpp"
 #include "core/model.hpp"
+#include "core/piston_group.hpp"
 #include "core/state.hpp"
 
 namespace talus
@@ -17,17 +18,18 @@ struct SolveReport {
 
 /// Warm start: v ← v + M⁻¹ Gᵀ λ⁰ with the impulses in the contacts (README (5); the note forgets it).
 /// Returns Σ W|λ⁰|².
-double apply_warm_start(ContactNetwork& network, std::vector<Motion>& motion, const ModelledPhysics& physics);
+double apply_warm_start(
+    ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion, const ModelledPhysics& physics);
 
 /// Projected Gauss–Seidel (Algorithm 3.1 of the note) on the contacts of the network: sweeps tile colour by tile
-/// colour, the tiles of one colour in parallel, until
+/// colour, the tiles of one colour in parallel, and the pistons after them, until
 ///
 ///   ε = (Σ W|δ|² / max(Σ W|λ|², Σ W|λ⁰|²))^½ ≤ tolerance,  δ the exact correction of one contact alone,  README (9)
 ///
 /// but at least min_sweeps and at most max_sweeps. The changes made by the sweeps tell when ε may be small enough; then
 /// a pass that changes nothing measures ε itself, and the sweeps go on if it is not.
 /// @param warm_size Σ W|λ⁰|² of the warm start
-SolveReport solve_contacts(ContactNetwork& network, std::vector<Motion>& motion, const ModelledPhysics& physics,
-    const SolverSettings& solver, double warm_size);
+SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
+    const ModelledPhysics& physics, const SolverSettings& solver, double warm_size);
 
 } // namespace talus

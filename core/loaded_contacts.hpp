@@ -26,10 +26,11 @@ template <class Use> void for_each_loaded_sphere_contact(const ContactNetwork& n
     for_each_loaded(network.sphere_contacts, network.pairs_of_tile, use);
 }
 
-/// The loaded contacts between a sphere and a wall; the wall is touched at (r_a + gap) n from the centre.
+/// The loaded contacts between a sphere and a wall, pistons last; the wall is touched at (r_a + gap) n from the centre.
 template <class Use> void for_each_loaded_wall_contact(const ContactNetwork& network, Use&& use)
 {
     for_each_loaded(network.wall_contacts, network.wall_slots_of_tile, use);
+    for_each_loaded(network.piston_contacts, {0}, use);
 }
 
 } // namespace talus

@@ -3,6 +3,7 @@
 
 #include "core/material.hpp"
 #include "core/periodicity.hpp"
+#include "core/piston.hpp"
 #include "core/region.hpp"
 #include "core/wall.hpp"
 
@@ -30,7 +31,8 @@ struct ModelledPhysics {
     bool spin = false; ///< spheres turn; never without friction
     bool rolling = false;
     bool restitution = false;
-    bool moving_walls = false;
+    bool moving_walls = false; ///< as they are told
+    bool pistons = false;
     bool wall_loads = false; ///< a sensor asks for them
 };
 
@@ -40,6 +42,7 @@ struct Model {
     double time_step = 0.0;           ///< h [s]
     Materials materials;
     std::vector<Wall> walls;
+    std::vector<Piston> pistons;   ///< the walls of finite mass
     std::vector<Region> outlets;   ///< a sphere whose centre enters one leaves the world lawfully
     Periodicity periodicity;       ///< none unless the scene asks for it
     Box world;                     ///< a sphere whose centre leaves it elsewhere has escaped

@@ -51,6 +51,13 @@ PlacedWall::PlacedWall(const Wall& wall, const Periodicity& periodicity, double 
     if (step > 0.0) twist_ = twist_between(pose_, first_image(pose_at(wall.motion, time + step), cells), step);
 }
 
+PlacedWall::PlacedWall(
+    const Wall& wall, const Periodicity& periodicity, const Piston& piston, const PistonState& state, const Vec3& gain)
+    : wall_(&wall), shape_patches_(talus::patch_count(wall.shape)), images_(images_of(wall.shape, periodicity)),
+      pose_(state.pose), back_(pose_.inverse()), twist_(twist_of(piston, state)), gain_(gain), stands_(true)
+{
+}
+
 WallPoint PlacedWall::nearest_point(std::size_t patch, const Vec3& x) const
 {
     const auto of_shape = [&](std::size_t k, const Vec3& place) {
@@ -88,11 +95,12 @@ double PlacedWall::gap(const Vec3& center, double radius, double within) const
 
 double PlacedWall::fastest(const Box& box) const
 {
-    if (twist_.spin.isZero(0.0)) return twist_.velocity.norm();
+    const double most_gained = gain_.norm();
+    if (twist_.spin.isZero(0.0)) return twist_.velocity.norm() + most_gained;
     double speed = 0.0;
     for (const Vec3& image : images_)
         for (const Vec3& x : corners(box)) speed = std::max(speed, twist_.at(x - image).norm());
-    return speed;
+    return speed + most_gained;
 }
 
 double PlacedWall::way_since(const Pose& before, const Box& box) const
@@ -102,13 +110,27 @@ double PlacedWall::way_since(const Pose& before, const Box& box) const
     return longest;
 }
 
-std::vector<PlacedWall> place_walls(
-    const std::vector<Wall>& walls, const Periodicity& periodicity, double time, double step)
+std::vector<PlacedWall> place_walls(const Model& model, const State& state, double step)
 {
     std::vector<PlacedWall> result;
-    result.reserve(walls.size());
-    for (const auto& wall : walls) result.emplace_back(wall, periodicity, time, step);
+    result.reserve(model.walls.size());
+    for (const auto& wall : model.walls) {
+        if (!wall.is_piston()) {
+            result.emplace_back(wall, model.periodicity, state.time, step);
+            continue;
+        }
+        const Piston& piston = model.pistons[wall.piston];
+        result.emplace_back(wall, model.periodicity, piston, state.pistons[wall.piston],
+            piston.free_gain(model.gravity, state.time, step));
+    }
     return result;
+}
+
+std::vector<PlacedWall> place_walls_at_start(const Model& model)
+{
+    State state;
+    state.pistons.resize(model.pistons.size());
+    return place_walls(model, state);
 }
 
 bool touches_wall(const std::vector<PlacedWall>& walls, const Vec3& center, double radius)

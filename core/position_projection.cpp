@@ -29,21 +29,46 @@ void separate_from_wall(const Contact& c, double wall_level, State& state, doubl
     if (overlap > 0.0) state.position[c.a] += share * overlap * c.normal;
 }
 
+/// Likewise; the level goes with the piston, which has come some way since.
+/// @param began how its wall stood when the step began
+void separate_from_piston(
+    const Contact& c, double wall_level, const Piston& piston, const PlacedWall& began, State& state, double share)
+{
+    Pose& pose = state.pistons[began.wall().piston].pose;
+    const Vec3 way = pose(piston.center) - began.pose()(piston.center);
+    const double overlap = wall_level + c.normal.dot(way - state.position[c.a]);
+    if (overlap <= 0.0) return;
+    const double along_guide = c.normal.dot(piston.guide);
+    const double inverse_mass = state.motion[c.a].inverse_mass;
+    const double piston_inverse_mass = piston.is_free(state.time) ? 1.0 / piston.mass : 0.0;
+    const double shift = share * overlap / (inverse_mass + along_guide * along_guide * piston_inverse_mass);
+    state.position[c.a] += inverse_mass * shift * c.normal;
+    pose.shift -= piston_inverse_mass * shift * along_guide * piston.guide;
+}
+
 } // namespace
 
-void project_positions(const ContactNetwork& network, State& state, const Periodicity& periodicity, double share)
+void project_positions(
+    const ContactNetwork& network, State& state, const Model& model, const std::vector<PlacedWall>& walls, double share)
 {
     const auto& spheres = network.sphere_contacts;
-    const auto& walls = network.wall_contacts;
+    const auto& at_walls = network.wall_contacts;
     const auto separate = [&](std::size_t tile) {
         const auto first = network.pairs_of_tile[tile];
         for (auto k = first; k < first + spheres.count[tile]; ++k)
-            separate_spheres(spheres.contact[k], state, periodicity, share);
+            separate_spheres(spheres.contact[k], state, model.periodicity, share);
         const auto first_wall = network.wall_slots_of_tile[tile];
-        for (auto k = first_wall; k < first_wall + walls.count[tile]; ++k)
-            separate_from_wall(walls.contact[k], walls.geometry[k].wall_level, state, share);
+        for (auto k = first_wall; k < first_wall + at_walls.count[tile]; ++k)
+            separate_from_wall(at_walls.contact[k], at_walls.geometry[k].wall_level, state, share);
     };
     with_tile_crew(network.tiles, [&](TileCrew& crew) { crew.color_by_color(separate); });
+
+    const auto& pistons = network.piston_contacts;
+    for (std::size_t k = 0; model.physics.pistons && k < pistons.count[0]; ++k) {
+        const Contact& c = pistons.contact[k];
+        const PlacedWall& wall = walls[c.b];
+        separate_from_piston(c, pistons.geometry[k].wall_level, model.pistons[wall.wall().piston], wall, state, share);
+    }
 }
 
 } // namespace talus

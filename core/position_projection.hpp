@@ -2,6 +2,8 @@
 #pragma once
 
 #include "core/contact_network.hpp"
+#include "core/model.hpp"
+#include "core/placed_wall.hpp"
 #include "core/state.hpp"
 
 namespace talus
@@ -9,7 +11,9 @@ namespace talus
 
 /// The position half of `projected`: one nonlinear Gauss–Seidel pass over the contacts, in which each overlapping pair
 /// is moved apart by a share of its present overlap, in inverse proportion to the masses. Velocities do not change, so
-/// overlap never becomes energy.
-void project_positions(const ContactNetwork& network, State& state, const Periodicity& periodicity, double share);
+/// overlap never becomes energy. A piston gives way along its guide, after its release.
+/// @param walls as they stood when the step began
+void project_positions(const ContactNetwork& network, State& state, const Model& model,
+    const std::vector<PlacedWall>& walls, double share);
 
 } // namespace talus

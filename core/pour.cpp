@@ -87,7 +87,7 @@ std::size_t pour(Pour& source, State& state, const Model& model)
     if (!is_due(source, state.time)) return 0;
 
     auto near = spheres_near(state, source.region, 0.5 * source.mixture.max_diameter(), model.periodicity);
-    const auto walls = place_walls(model.walls, model.periodicity, state.time);
+    const auto walls = place_walls(model, state);
     std::size_t entered = 0;
     for (; is_due(source, state.time); ++entered) {
         if (source.pending.diameter == 0.0) source.pending = source.mixture.draw(source.random);

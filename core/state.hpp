@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/archive.hpp"
+#include "core/piston.hpp"
 #include "core/vector.hpp"
 
 #include <cstdint>
@@ -27,8 +28,8 @@ static_assert(sizeof(Motion) == 64);
 /// Inverse moment of inertia of a solid sphere times m r²: I = 2/5 m r².
 inline constexpr double inverse_inertia_factor = 2.5;
 
-/// What exists and changes: the spheres, by storage index, and the time. Storage order changes (spheres leave, are
-/// renumbered along a curve); `id` never does.
+/// What exists and changes: the spheres, by storage index, the pistons, and the time. Storage order changes (spheres
+/// leave, are renumbered along a curve); `id` never does.
 struct State {
     std::vector<Vec3> position;          ///< x, centres [m]
     std::vector<Motion> motion;          ///< v, a, 1/m, r
@@ -36,6 +37,8 @@ struct State {
     std::vector<std::int64_t> id;        ///< what the user sees: 0, 1, … in order of insertion
     std::vector<std::int32_t> last_wall; ///< index of the wall touched last, −1 for none
     std::vector<std::uint8_t> leaving;   ///< 1 once the centre has been inside an outlet
+
+    std::vector<PistonState> pistons; ///< in the order of Model::pistons
 
     double time = 0.0;          ///< [s]
     std::int64_t steps = 0;     ///< taken so far
@@ -49,7 +52,7 @@ struct State {
 
     void persist(Archive& archive)
     {
-        archive(position, motion, material, id, last_wall, leaving, time, steps, next_id, inserted_mass);
+        archive(position, motion, material, id, last_wall, leaving, pistons, time, steps, next_id, inserted_mass);
     }
 };
 

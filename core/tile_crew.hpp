@@ -38,6 +38,13 @@ public:
         run_until(static_cast<std::uint32_t>(tiles_.count()), 0, work);
     }
 
+    /// Runs work() once, on one thread; all wait for it.
+    template <class Work> void by_one(Work&& work)
+    {
+        const auto once = [&](std::uint32_t) { work(); };
+        run_until(1, 0, once);
+    }
+
 private:
     static constexpr int short_spin = 5000; ///< loads of a cached word: some microseconds
 
@@ -47,7 +54,7 @@ private:
     alignas(64) std::atomic<int> waiting_{0};
     alignas(64) std::atomic<std::uint32_t> round_{0};
 
-    template <class Work> void run_until(std::uint32_t end, std::uint32_t next_begin, Work& work)
+    template <class Work> void run_until(std::uint32_t end, std::uint32_t next_begin, const Work& work)
     {
         for (auto t = next_.fetch_add(1, std::memory_order_relaxed); t < end;
              t = next_.fetch_add(1, std::memory_order_relaxed))

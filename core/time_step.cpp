@@ -5,6 +5,7 @@
 #include "core/contact_assembly.hpp"
 #include "core/curve_order.hpp"
 #include "core/gauss_seidel.hpp"
+#include "core/piston_group.hpp"
 #include "core/position_projection.hpp"
 #include "core/stabilisation.hpp"
 
@@ -37,6 +38,17 @@ void move_spheres(State& state, double h)
     for (std::size_t i = 0; i < state.count(); ++i) state.position[i] += h * state.motion[i].velocity;
 }
 
+/// Pistons likewise. Returns the work that their loads did on the way [J].
+double move_pistons(State& state, const std::vector<Piston>& pistons, double h)
+{
+    double work = 0.0;
+    for (std::size_t k = 0; k < pistons.size(); ++k) {
+        work += h * pistons[k].load_at(state.time) * travel_speed(pistons[k], state.pistons[k]);
+        move(pistons[k], state.pistons[k], h);
+    }
+    return work;
+}
+
 /// Spheres that have left the cell of periodic axes come in again on its other side.
 void wrap_positions(State& state, const Periodicity& periodicity)
 {
@@ -54,7 +66,7 @@ void mark_leaving(State& state, const std::vector<Region>& outlets)
 }
 
 StepReport make_report(const BegunStep& begun, const ContactNetwork& contacts, const SolveReport& solve,
-    const ContactOutcome& outcome, std::vector<WallLoad> loads, SphereSurvey spheres)
+    const ContactOutcome& outcome, std::vector<WallLoad> loads, double load_work, StateSurvey bodies)
 {
     const ContactSurvey& survey = begun.survey;
     const auto overlapping = static_cast<double>(survey.overlapping);
@@ -67,17 +79,18 @@ StepReport make_report(const BegunStep& begun, const ContactNetwork& contacts, c
         .worst_overlap = survey.worst_overlap,
         .mean_overlap = survey.overlapping ? survey.overlap_sum / overlapping : 0.0,
         .cone_violation = outcome.cone_violation,
-        .kinetic_energy = spheres.kinetic_energy,
-        .potential_energy = spheres.potential_energy,
-        .gravity_work = spheres.gravity_work,
+        .kinetic_energy = bodies.kinetic_energy,
+        .potential_energy = bodies.potential_energy,
+        .gravity_work = bodies.gravity_work,
         .contact_energy = survey.contact_energy,
-        .fastest_speed = spheres.fastest_speed,
-        .long_moves = spheres.long_moves,
+        .fastest_speed = bodies.fastest_speed,
+        .long_moves = bodies.long_moves,
         .searched = begun.searched,
         .wall_impulse = outcome.wall_impulse,
         .wall_work = outcome.wall_work,
+        .load_work = load_work,
         .wall_loads = std::move(loads),
-        .incidents = std::move(spheres.incidents)};
+        .incidents = std::move(bodies.incidents)};
 }
 
 } // namespace
@@ -89,7 +102,7 @@ BegunStep begin_step(State& state, ContactNetwork& contacts, const Model& model,
     // Which spheres and walls can touch during this step?
     if (observer) observer(Phase::search);
     renumber_along_curve(state, contacts, model);
-    begun.walls = place_walls(model.walls, model.periodicity, state.time, model.time_step);
+    begun.walls = place_walls(model, state, model.time_step);
     begun.searched = update_candidates(contacts, state, model, begun.walls);
 
     // Which do, under which law, and with what impulse to begin with?
@@ -107,24 +120,27 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
 
     // Who touches whom, and under which law?
     const BegunStep begun = begin_step(state, contacts, model, observer);
+    PistonGroup pistons(contacts, state, model);
 
     // The velocity if nothing touched: v⁽¹⁾ = v⁽⁰⁾ + h M⁻¹ f.
     // Then the impulses of the last step: v ← v + M⁻¹ Gᵀ λ⁰.
     enter(Phase::warm_start);
     add_gravity(state.motion, model.gravity, h);
-    const double warm_size = apply_warm_start(contacts, state.motion, model.physics);
+    const double warm_size = apply_warm_start(contacts, pistons, state.motion, model.physics);
 
     // The contact impulses: every contact in turn until all laws hold.
     enter(Phase::sweeps);
-    const auto solve = solve_contacts(contacts, state.motion, model.physics, model.solver, warm_size);
+    const auto solve = solve_contacts(contacts, pistons, state.motion, model.physics, model.solver, warm_size);
+    pistons.store(contacts, state);
 
     auto loads = model.physics.wall_loads ? wall_loads(contacts, state, model.walls.size()) : std::vector<WallLoad>{};
 
     // Positions with the new velocity: x ← x + h v.
     enter(Phase::positions);
     move_spheres(state, h);
+    const double load_work = move_pistons(state, model.pistons, h);
     if (model.solver.stabilisation == Stabilisation::projected)
-        project_positions(contacts, state, model.periodicity, projected_share);
+        project_positions(contacts, state, model, begun.walls, projected_share);
     wrap_positions(state, model.periodicity);
     state.time = static_cast<double>(++state.steps) * h;
 
@@ -132,7 +148,7 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
     enter(Phase::report);
     mark_leaving(state, model.outlets);
     const auto outcome = carry_impulses(contacts, state);
-    return make_report(begun, contacts, solve, outcome, std::move(loads), survey_spheres(state, model));
+    return make_report(begun, contacts, solve, outcome, std::move(loads), load_work, survey_state(state, model));
 }
 
 } // namespace talus

@@ -31,15 +31,16 @@ struct StepReport {
     double worst_overlap = 0.0;       ///< at the beginning of the step [m]
     double mean_overlap = 0.0;        ///< over the overlapping contacts [m]
     double cone_violation = 0.0;      ///< worst |λ_t| − μ λ_n [N s]
-    double kinetic_energy = 0.0;      ///< of the new velocities [J]
+    double kinetic_energy = 0.0;      ///< of the new velocities, pistons included, as in what follows [J]
     double potential_energy = 0.0;    ///< −Σ m g·x of the new positions, periodic axes left out [J]
     double gravity_work = 0.0;        ///< of gravity along periodic axes in the step [J]
     double contact_energy = 0.0;      ///< ½ k g² stored in the compliant contacts at the beginning of the step [J]
     double fastest_speed = 0.0;       ///< [m/s]
-    std::size_t long_moves = 0;       ///< spheres that moved more than 0.1 d in the step
+    std::size_t long_moves = 0;       ///< spheres, and pistons, that moved more than 0.1 d in the step
     std::size_t searched = 0;         ///< spheres whose neighbours were searched anew
-    Vec3 wall_impulse = Vec3::Zero(); ///< Σ λ over all wall contacts, on the spheres [N s]
-    double wall_work = 0.0;           ///< that moving walls did on the spheres [J]
+    Vec3 wall_impulse = Vec3::Zero(); ///< Σ λ over the contacts with walls that are not pistons, on the spheres [N s]
+    double wall_work = 0.0;           ///< that walls which move as told did on the spheres [J]
+    double load_work = 0.0;           ///< that loads did on pistons [J]
     std::vector<WallLoad> wall_loads; ///< by wall; empty unless a sensor asks for them
     std::vector<Incident> incidents;  ///< empty in every healthy step
 };

@@ -104,7 +104,7 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const Mixture& m
     const auto columns = static_cast<std::int64_t>(half(frame.e2) / a) + 2;
 
     const auto grid = grid_of(others, mixture);
-    const auto walls = place_walls(model.walls, model.periodicity, 0.0);
+    const auto walls = place_walls_at_start(model);
     std::vector<PackedSphere> spheres;
     Grain next = mixture.draw(random);
     for (std::int64_t k = 0; k < layers; ++k) {
@@ -131,7 +131,7 @@ std::vector<PackedSphere> random_packing(const Region& region, const Mixture& mi
     const std::vector<PackedSphere>& others, const Model& model, Random& random)
 {
     auto grid = grid_of(others, mixture);
-    const auto walls = place_walls(model.walls, model.periodicity, 0.0);
+    const auto walls = place_walls_at_start(model);
     std::vector<PackedSphere> spheres;
     while (static_cast<std::int64_t>(spheres.size()) < count) {
         const Grain grain = mixture.draw(random);

@@ -64,7 +64,7 @@ OverlapCheck check_overlaps(const Simulation& simulation)
             state.radius(a) + state.radius(b) - periodicity.nearest_image(state.position[a] - state.position[b]).norm(),
             state.id[a], state.id[b], -1);
 
-    const auto walls = place_walls(simulation.model.walls, periodicity, state.time);
+    const auto walls = place_walls(simulation.model, state);
     for (std::size_t i = 0; i < state.count(); ++i)
         for (std::size_t w = 0; w < walls.size(); ++w)
             if (walls[w].stands())

@@ -192,8 +192,9 @@ void check_against_oracle(World& world, int sweeps)
     SolverSettings solver = model.solver;
     solver.min_sweeps = solver.max_sweeps = sweeps;
     solver.tolerance = 0.0;
-    const double warm_size = apply_warm_start(world.contacts, world.state.motion, model.physics);
-    const auto report = solve_contacts(world.contacts, world.state.motion, model.physics, solver, warm_size);
+    PistonGroup none(world.contacts, world.state, model);
+    const double warm_size = apply_warm_start(world.contacts, none, world.state.motion, model.physics);
+    const auto report = solve_contacts(world.contacts, none, world.state.motion, model.physics, solver, warm_size);
 
     const auto difference = compare(world.contacts, world.state, dense);
     CHECK(difference.impulse < 1e-10);

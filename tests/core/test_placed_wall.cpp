@@ -158,10 +158,15 @@ TEST_CASE("a plane along periodic axes is its own image", "[placed_wall]")
 
 TEST_CASE("a wall stands in its time only", "[placed_wall]")
 {
-    Wall wall{"gate", Plane{}};
+    Model model;
+    Wall& wall = model.walls.emplace_back(Wall{"gate", Plane{}});
     wall.appear_at = 1.0;
     wall.remove_at = 2.0;
-    const auto touches = [&](double time) { return touches_wall(place_walls({wall}, {}, time), Vec3(0, 0, 0.1), 0.2); };
+    const auto touches = [&](double time) {
+        State state;
+        state.time = time;
+        return touches_wall(place_walls(model, state), Vec3(0, 0, 0.1), 0.2);
+    };
     CHECK_FALSE(touches(0.5));
     CHECK(touches(1.0));
     CHECK_FALSE(touches(2.0));

@@ -56,7 +56,7 @@ void World::add_wall(Shape shape, WallMotion motion)
 
 std::vector<PlacedWall> World::placed_walls() const
 {
-    return place_walls(model.walls, model.periodicity, state.time, model.time_step);
+    return place_walls(model, state, model.time_step);
 }
 
 std::size_t World::update_candidates()

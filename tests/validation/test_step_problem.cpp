@@ -24,7 +24,9 @@ std::vector<Motion> swept_by_kernel(const Simulation& simulation, int sweeps)
     SolverSettings solver = model.solver;
     solver.tolerance = 0.0;
     solver.min_sweeps = solver.max_sweeps = sweeps;
-    solve_contacts(contacts, motion, model.physics, solver, apply_warm_start(contacts, motion, model.physics));
+    PistonGroup none(contacts, simulation.state, model);
+    const double warm_size = apply_warm_start(contacts, none, motion, model.physics);
+    solve_contacts(contacts, none, motion, model.physics, solver, warm_size);
     return motion;
 }
 
