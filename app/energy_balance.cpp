@@ -19,7 +19,7 @@ void EnergyBalance::add(const StepReport& report, bool same_spheres)
         gained_ += std::max(0.0, rise);
     }
     total_energy_ = total;
-    work_ = report.wall_work + report.gravity_work;
+    work_ = report.wall_work + report.load_work + report.gravity_work;
     put_in_ += work_;
     motion_energy_ = report.kinetic_energy + report.potential_energy;
 }

@@ -10,8 +10,8 @@ namespace talus
 {
 
 /// Falls and rises of the total energy from step to step: kinetic + potential + stored in the contacts, less what
-/// moving walls, and gravity along periodic axes, put in. Only steps with the same spheres are compared; what pours and
-/// outlets carry in and out is not a change of theirs.
+/// moving walls, loads on pistons, and gravity along periodic axes, put in. Only steps with the same spheres are
+/// compared; what pours and outlets carry in and out is not a change of theirs.
 class EnergyBalance
 {
 public:
@@ -20,7 +20,7 @@ public:
 
     double lost() const { return lost_; }     ///< sum of the falls [J]
     double gained() const { return gained_; } ///< sum of the rises [J]
-    double put_in() const { return put_in_; } ///< work of moving walls, and of gravity along periodic axes [J]
+    double put_in() const { return put_in_; } ///< work of moving walls, loads, and gravity along periodic axes [J]
 
     void persist(Archive& archive) { archive(lost_, gained_, put_in_, work_, motion_energy_, total_energy_); }
 

@@ -14,7 +14,8 @@ Model relaxing_model(const Model& model)
 {
     Model relaxing = model;
     relaxing.gravity.setZero();
-    relaxing.physics = {};
+    relaxing.physics = {.pistons = model.physics.pistons};
+    for (Piston& piston : relaxing.pistons) piston.released_at = infinity; // they stand still
     relaxing.outlets.clear();
     relaxing.solver.stabilisation = Stabilisation::projected;
     return relaxing;

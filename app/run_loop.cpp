@@ -125,7 +125,9 @@ bool RunLoop::next_step_is_last() const
 
 bool RunLoop::stops_the_run(const StepReport& report) const
 {
-    const auto may_be_removed = [](const Incident& incident) { return incident.kind == Incident::Kind::escaped; };
+    const auto may_be_removed = [](const Incident& incident) {
+        return incident.kind == Incident::Kind::escaped && !incident.of_piston();
+    };
     return !report.incidents.empty() && !(remove_escaped_ && std::ranges::all_of(report.incidents, may_be_removed));
 }
 
@@ -259,7 +261,8 @@ void RunLoop::write_tables()
 void RunLoop::write_particles()
 {
     frames_.write_particles(simulation_);
-    if (simulation_.model.physics.moving_walls) frames_.write_moving_walls(simulation_.model, simulation_.state.time);
+    const ModelledPhysics& physics = simulation_.model.physics;
+    if (physics.moving_walls || physics.pistons) frames_.write_moving_walls(simulation_.model, simulation_.state);
     last_particles_ = simulation_.state.steps;
 }
 
@@ -271,7 +274,7 @@ void RunLoop::write_contacts()
 
 void RunLoop::write_walls()
 {
-    frames_.write_walls(simulation_.model, simulation_.state.time);
+    frames_.write_walls(simulation_.model, simulation_.state);
     standing_ = standing_walls(simulation_.model, simulation_.state.time);
 }
 

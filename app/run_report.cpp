@@ -20,7 +20,7 @@ ParticleLedger particle_ledger(const Simulation& simulation, const std::vector<I
     ledger.inserted = simulation.state.next_id;
     ledger.left = simulation.outflow.count;
     const auto still_listed = std::count_if(incidents.begin(), incidents.end(),
-        [](const Incident& incident) { return incident.kind == Incident::Kind::escaped; });
+        [](const Incident& incident) { return incident.kind == Incident::Kind::escaped && !incident.of_piston(); });
     ledger.escaped = static_cast<std::int64_t>(simulation.escaped.size()) + still_listed;
     ledger.inside = static_cast<std::int64_t>(simulation.state.count()) - still_listed;
     return ledger;
@@ -103,7 +103,7 @@ void print_error(const RunSummary& summary)
     const std::string put_in =
         e.energy_put_in == 0.0
             ? ""
-            : fmt::format("; {:.4g} J put in by moving walls or gravity along periodic axes", e.energy_put_in);
+            : fmt::format("; {:.4g} J put in by moving walls, loads or gravity along periodic axes", e.energy_put_in);
     say("  {:<28} {:.4g} J lost, {:.2g} J gained that nothing put in{}\n", "energy", e.energy_lost, e.energy_gained,
         put_in);
 }

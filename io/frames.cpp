@@ -160,25 +160,26 @@ void FrameWriter::write_contacts(const Simulation& simulation)
     add_frame(contacts_, simulation.state.time, *geometry);
 }
 
-void FrameWriter::write_walls(const Model& model, double time)
+void FrameWriter::write_walls(const Model& model, const State& state)
 {
-    add_walls_frame(walls_, model, time, false);
+    add_walls_frame(walls_, model, state, false);
 }
 
-void FrameWriter::write_moving_walls(const Model& model, double time)
+void FrameWriter::write_moving_walls(const Model& model, const State& state)
 {
-    add_walls_frame(moving_walls_, model, time, true);
+    add_walls_frame(moving_walls_, model, state, true);
 }
 
-void FrameWriter::add_walls_frame(Series& series, const Model& model, double time, bool moving)
+void FrameWriter::add_walls_frame(Series& series, const Model& model, const State& state, bool moving)
 {
+    const auto placed = place_walls(model, state);
     std::vector<Vec3> vertices;
     std::vector<std::size_t> wall_of_triangle;
     vtkNew<vtkCellArray> cells;
     for (std::size_t wall = 0; wall < model.walls.size(); ++wall) {
-        if (!model.walls[wall].stands_at(time) || model.walls[wall].motion.empty() == moving) continue;
+        if (!placed[wall].stands() || placed[wall].moves() != moving) continue;
         const TriangleSoup surface = wall_surface(model.walls[wall].shape, model.world);
-        const Pose pose = PlacedWall(model.walls[wall], model.periodicity, time).pose();
+        const Pose& pose = placed[wall].pose();
         const auto first = static_cast<vtkIdType>(vertices.size());
         for (const Vec3& vertex : surface.vertices) vertices.push_back(pose(vertex));
         for (const auto& [a, b, c] : surface.triangles) {
@@ -191,7 +192,7 @@ void FrameWriter::add_walls_frame(Series& series, const Model& model, double tim
     geometry->SetPolys(cells);
     add_integers(
         *geometry->GetCellData(), "wall", wall_of_triangle.size(), [&](std::size_t k) { return wall_of_triangle[k]; });
-    add_frame(series, time, *geometry);
+    add_frame(series, state.time, *geometry);
 }
 
 void FrameWriter::add_frame(Series& series, double time, vtkPolyData& geometry)

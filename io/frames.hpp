@@ -35,12 +35,12 @@ public:
     /// The walls that stand at this time and do not move, as triangles with the wall's index. Planes are drawn as large
     /// as the world.
     /// @throws OutputError
-    void write_walls(const Model& model, double time);
+    void write_walls(const Model& model, const State& state);
 
     /// Likewise those that move, which have a series of their own, or a large wall that stands still would be written
     /// again and again.
     /// @throws OutputError
-    void write_moving_walls(const Model& model, double time);
+    void write_moving_walls(const Model& model, const State& state);
 
     /// Stores or puts back the times of the frames written so far.
     void persist(Archive& archive) { archive(particles_.times, contacts_.times, walls_.times, moving_walls_.times); }
@@ -58,7 +58,7 @@ private:
     Series particles_{"particles", {}}, contacts_{"contacts", {}}, walls_{"walls", {}},
         moving_walls_{"moving_walls", {}};
 
-    void add_walls_frame(Series& series, const Model& model, double time, bool moving);
+    void add_walls_frame(Series& series, const Model& model, const State& state, bool moving);
     void add_frame(Series& series, double time, vtkPolyData& geometry);
     void write_list(const Series& series) const;
     void cut_back(const Series& series) const;

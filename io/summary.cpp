@@ -110,6 +110,10 @@ Json to_json(const TimingSummary& timing)
 std::string describe(const Incident& incident, const std::vector<std::string>& wall_names)
 {
     const auto& x = incident.position;
+    if (incident.of_piston())
+        return fmt::format("the wall '{}' {}: its middle is at ({:.4g}, {:.4g}, {:.4g}) m with {:.4g} m/s",
+            wall_names[static_cast<std::size_t>(incident.last_wall)], sentence_of(incident.kind), x.x(), x.y(), x.z(),
+            incident.speed);
     const std::string touched = incident.last_wall < 0 ? "it has touched no wall"
                                                        : fmt::format("the wall it touched last is '{}'",
                                                              wall_names[static_cast<std::size_t>(incident.last_wall)]);

@@ -64,4 +64,14 @@ std::string toml_text(const std::vector<scene::Waypoint>& table)
     return "[" + text + "]";
 }
 
+/// A load that never changes is a number, as in a scene.
+std::string toml_text(const std::vector<scene::LoadRow>& load)
+{
+    if (load.size() == 1 && load[0].time == 0.0) return toml_text(load[0].force);
+    std::string text;
+    for (const scene::LoadRow& row : load)
+        text += fmt::format("{}[{}, {}]", text.empty() ? "" : ", ", toml_text(row.time), toml_text(row.force));
+    return "[" + text + "]";
+}
+
 } // namespace talus

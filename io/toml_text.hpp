@@ -21,6 +21,7 @@ std::string toml_text(const Vec3& vector);
 std::string toml_text(const scene::NumberOrName& value);
 std::string toml_text(const std::vector<std::string>& list);
 std::string toml_text(const std::vector<scene::Waypoint>& table);
+std::string toml_text(const std::vector<scene::LoadRow>& load);
 
 /// As an inline table.
 template <Table Described> std::string toml_text(const Described& table)

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -134,6 +135,11 @@ std::string expected_value(const Key&, const std::vector<scene::Waypoint>&)
     return "rows of four numbers [time, x, y, z]";
 }
 
+std::string expected_value(const Key&, const std::vector<scene::LoadRow>&)
+{
+    return "a number [N] or rows of two numbers [time, force]";
+}
+
 std::string expected_value(const Key& key, const std::vector<std::string>&)
 {
     if (key.allowed.names.empty()) return "an array of strings";
@@ -208,23 +214,44 @@ void read_value(const toml::node& node, const Key& key, std::vector<std::string>
     }
 }
 
-void read_value(const toml::node& node, const Key& key, std::vector<scene::Waypoint>& field)
+/// Reads rows of so many numbers each, and hands each row to `add`.
+template <std::size_t columns>
+void read_rows(const toml::node& node, const Key& key, const std::string& expected, auto&& add)
 {
-    const std::string expected = expected_value(key, field);
     const auto* array = node.as_array();
     if (!array) refuse_value(node, key.name, expected);
-    field.clear();
     for (const toml::node& element : *array) {
         const auto* row = element.as_array();
-        if (!row || row->size() != 4) refuse_value(element, key.name, expected);
-        double numbers[4];
-        for (std::size_t k = 0; k < 4; ++k) {
+        if (!row || row->size() != columns) refuse_value(element, key.name, expected);
+        std::array<double, columns> numbers;
+        for (std::size_t k = 0; k < columns; ++k) {
             const auto number = allowed_number((*row)[k], key.allowed);
             if (!number) refuse_value((*row)[k], key.name, expected);
             numbers[k] = *number;
         }
-        field.push_back({numbers[0], Vec3(numbers[1], numbers[2], numbers[3])});
+        add(numbers);
     }
+}
+
+void read_value(const toml::node& node, const Key& key, std::vector<scene::Waypoint>& field)
+{
+    field.clear();
+    read_rows<4>(node, key, expected_value(key, field), [&](const std::array<double, 4>& row) {
+        field.push_back({row[0], Vec3(row[1], row[2], row[3])});
+    });
+}
+
+/// A number alone is short for a load that never changes.
+void read_value(const toml::node& node, const Key& key, std::vector<scene::LoadRow>& field)
+{
+    if (const auto force = allowed_number(node, key.allowed)) {
+        field = {{0.0, *force}};
+        return;
+    }
+    field.clear();
+    read_rows<2>(node, key, expected_value(key, field), [&](const std::array<double, 2>& row) {
+        field.push_back({row[0], row[1]});
+    });
 }
 
 } // namespace talus

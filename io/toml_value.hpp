@@ -37,6 +37,7 @@ std::string describe_value(const toml::node& node);
 /// What a key's value must be, for sentences: "a number above 0 [s] or inf", "three numbers [m]".
 std::string expected_value(const Key& key, const bool& field);
 std::string expected_value(const Key& key, const std::vector<scene::Waypoint>& field);
+std::string expected_value(const Key& key, const std::vector<scene::LoadRow>& field);
 std::string expected_value(const Key& key, const std::int64_t& field);
 std::string expected_value(const Key& key, const double& field);
 std::string expected_value(const Key& key, const std::string& field);
@@ -54,6 +55,7 @@ void read_value(const toml::node& node, const Key& key, Vec3& field);
 void read_value(const toml::node& node, const Key& key, scene::NumberOrName& field);
 void read_value(const toml::node& node, const Key& key, std::vector<std::string>& field);
 void read_value(const toml::node& node, const Key& key, std::vector<scene::Waypoint>& field);
+void read_value(const toml::node& node, const Key& key, std::vector<scene::LoadRow>& field);
 
 /// @throws InputError "place: 'key' must be `expected`, not …"
 [[noreturn]] void refuse_value(const toml::node& node, std::string_view key, std::string_view expected);

@@ -90,7 +90,10 @@ ModelledPhysics needed_physics(const scene::Scene& scene, const Materials& mater
         throw SceneError("world.rotation", "spheres that do not turn have no rolling resistance: leave out "
                                            "'rolling_friction', or let them turn");
     physics.spin = physics.friction && scene.world.rotation;
-    for (const auto& wall : scene.wall) physics.moving_walls = physics.moving_walls || !wall.motion.empty();
+    for (const auto& wall : scene.wall) {
+        physics.moving_walls = physics.moving_walls || !wall.motion.empty();
+        physics.pistons = physics.pistons || std::isfinite(wall.mass);
+    }
     return physics;
 }
 

@@ -59,6 +59,7 @@ Model build_model(const scene::Scene& scene)
     find_diameters(model, scene);
     model.periodicity = build_periodicity(scene, model.max_diameter);
     model.walls = build_walls(scene, model.materials, model.periodicity);
+    model.pistons = build_pistons(scene, model.walls, model.periodicity);
     model.outlets = build_outlets(scene);
     model.world = build_world(scene, model);
     model.solver = build_solver(scene);
@@ -81,6 +82,7 @@ std::string explain_model(const Model& model)
     say(p.restitution, "restitution");
     say(meshes, "mesh walls");
     say(p.moving_walls, "moving walls");
+    say(p.pistons, "walls of finite mass");
     say(model.periodicity.any(), "periodic axes");
     say(!model.outlets.empty(), "outlets");
     return models + (leaves_out.empty() ? "" : "; leaves out " + leaves_out);
@@ -95,6 +97,7 @@ Simulation build_scene(const scene::Scene& scene)
     auto& model = simulation.model;
     model = build_model(scene);
 
+    simulation.state.pistons.resize(model.pistons.size());
     Random random(static_cast<std::uint64_t>(scene.seed));
     fill_spheres(simulation, scene, random);
     simulation.pours = build_pours(scene, model, random);

@@ -7,6 +7,7 @@
 #include "core/repose.hpp"
 #include "core/slope.hpp"
 #include "core/wall_force.hpp"
+#include "core/wall_position.hpp"
 #include "scenarios/build_region.hpp"
 #include "scenarios/scene_checks.hpp"
 
@@ -96,6 +97,14 @@ std::unique_ptr<Sensor> build_wall_force(const Entry& entry, const std::vector<W
     return std::make_unique<WallForce>(entry.table.name, wall, entry.table.point, build_window(entry));
 }
 
+std::unique_ptr<Sensor> build_wall_position(const Entry& entry, const std::vector<Wall>& walls)
+{
+    const Wall& wall = walls[index_of(walls, "wall", entry.table.wall, entry.key("wall"))];
+    if (!wall.is_piston())
+        throw SceneError(entry.key("wall"), "the wall '" + wall.name + "' has no finite mass: it is where it is told");
+    return std::make_unique<WallPosition>(entry.table.name, static_cast<std::size_t>(wall.piston), build_window(entry));
+}
+
 std::unique_ptr<Sensor> build_sensor(const Entry& entry, const Model& model)
 {
     if (entry.table.kind == "mass_flow") return build_mass_flow(entry, model.periodicity);
@@ -103,6 +112,7 @@ std::unique_ptr<Sensor> build_sensor(const Entry& entry, const Model& model)
     if (entry.table.kind == "slope") return build_slope(entry);
     if (entry.table.kind == "region") return build_region_average(entry);
     if (entry.table.kind == "profile") return build_profile(entry);
+    if (entry.table.kind == "wall_position") return build_wall_position(entry, model.walls);
     return build_wall_force(entry, model.walls);
 }
 

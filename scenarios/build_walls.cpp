@@ -80,6 +80,59 @@ void require_seamless(const Wall& wall, const Periodicity& periodicity, std::siz
     }
 }
 
+void refuse_keys_without_mass(const scene::WallTable& w, std::size_t index)
+{
+    const auto refuse = [&](bool given, const char* name) {
+        if (given)
+            throw SceneError(key_path("wall", index, name), std::string("'") + name + "' goes with a finite 'mass'");
+    };
+    refuse(!w.guide.isZero(), "guide");
+    refuse(!w.load.empty(), "load");
+    refuse(w.released_at > 0.0, "released_at");
+}
+
+void require_piston(const scene::WallTable& w, std::size_t index)
+{
+    const auto key = [&](const char* name) { return key_path("wall", index, name); };
+    if (!w.motion.empty())
+        throw SceneError(key("mass"), "a wall moves as told or as forces have it: leave out 'mass' or the motion");
+    if (w.appear_at > 0.0 || w.remove_at < infinity)
+        throw SceneError(
+            key("mass"), "a wall of finite mass is there for the whole run: leave out 'appear_at' and 'remove_at'");
+    if (w.shape == "plane")
+        throw SceneError(key("shape"), "a plane has no end, so a wall of finite mass needs another shape");
+    if (w.guide.isZero())
+        throw SceneError(key("guide"), "a wall of finite mass needs a 'guide', the axis along which it moves");
+}
+
+std::vector<LoadPoint> build_load(const scene::WallTable& w, std::size_t index)
+{
+    std::vector<LoadPoint> load;
+    for (const auto& row : w.load) {
+        if (!load.empty() && !(row.time > load.back().time))
+            throw SceneError(key_path("wall", index, "load"), "the times of 'load' must rise from row to row");
+        load.push_back({row.time, row.force});
+    }
+    return load;
+}
+
+Piston build_piston(const scene::WallTable& w, std::size_t index, const Shape& shape, const Periodicity& periodicity)
+{
+    require_piston(w, index);
+    const Box box = bounds(shape);
+    const Vec3 guide = unit_vector(w.guide, key_path("wall", index, "guide"));
+    for (int d = 0; d < 3; ++d)
+        if (periodicity.along(d) && guide[d] != 0.0)
+            throw SceneError(key_path("wall", index, "guide"), "a guide must not lead along a periodic axis");
+    return {.wall = index,
+        .mass = w.mass,
+        .guide = guide,
+        .center = box.center(),
+        .inertia = block_inertia(w.mass, box.extent()),
+        .load = build_load(w, index),
+        .released_at = w.released_at};
+}
+
 } // namespace
 
 std::vector<Wall> build_walls(const scene::Scene& scene, const Materials& materials, const Periodicity& periodicity)
@@ -93,6 +146,20 @@ std::vector<Wall> build_walls(const scene::Scene& scene, const Materials& materi
         require_seamless(walls.back(), periodicity, k);
     }
     return walls;
+}
+
+std::vector<Piston> build_pistons(const scene::Scene& scene, std::vector<Wall>& walls, const Periodicity& periodicity)
+{
+    std::vector<Piston> pistons;
+    for (std::size_t k = 0; k < scene.wall.size(); ++k) {
+        if (!std::isfinite(scene.wall[k].mass)) {
+            refuse_keys_without_mass(scene.wall[k], k);
+            continue;
+        }
+        walls[k].piston = static_cast<std::int32_t>(pistons.size());
+        pistons.push_back(build_piston(scene.wall[k], k, walls[k].shape, periodicity));
+    }
+    return pistons;
 }
 
 } // namespace talus

@@ -382,6 +382,12 @@ struct MotionTable {
     }
 };
 
+/// The load on a wall of finite mass at a time.
+struct LoadRow {
+    double time = 0.0;  ///< [s]
+    double force = 0.0; ///< along the guide [N]
+};
+
 struct WallTable {
     std::string name;
     std::string shape = "mesh";
@@ -389,6 +395,11 @@ struct WallTable {
     double appear_at = 0.0;
     double remove_at = infinity;
     std::vector<MotionTable> motion;
+    // of finite mass
+    double mass = infinity;
+    Vec3 guide = Vec3::Zero();
+    std::vector<LoadRow> load;
+    double released_at = 0.0;
     // plane
     Vec3 point = Vec3::Zero();
     Vec3 normal = Vec3::UnitZ();
@@ -428,6 +439,15 @@ struct WallTable {
         key("remove_at", self.remove_at, or_infinite(at_least(0.0)), "s", "when the wall is taken away; inf: never");
         key("motion", self.motion, any(), "",
             "how the wall moves: one or more parts [[wall.motion]], each of which moves what comes of those before it");
+        key("mass", self.mass, or_infinite(above(0.0)), "kg",
+            "finite: a piston, which its weight, its load and the spheres move; inf: the wall moves as told, whatever "
+            "pushes");
+        key("guide", self.guide, any(), "",
+            "needed with a finite mass: the axis along which alone it moves, without turning");
+        key("load", self.load, any(), "N",
+            "force on a finite mass besides its weight, along the guide; of rows [time, force]: straight lines in "
+            "between, held at the ends");
+        key("released_at", self.released_at, at_least(0.0), "s", "until then a finite mass is held where it is");
         key("point", self.point, only_for({"plane"}, any()), "m", "a point on it");
         key("normal", self.normal, only_for({"plane", "disk"}, any()), "",
             "of a plane: into the free side; of a disk: at right angles to the plate");
@@ -469,7 +489,7 @@ struct OutletTable {
 
 /// Kinds: mass_flow through a plane; repose, the angle of a heap; slope, that of a free surface; region: packing
 /// fraction, coordination, velocity, granular temperature and stress in it; profile: packing and flow in the bins of a
-/// region; wall_force: force and torque on a wall.
+/// region; wall_force: force and torque on a wall; wall_position: travel, speed and load of a wall of finite mass.
 struct SensorTable {
     std::string name;
     std::string kind;
@@ -480,7 +500,7 @@ struct SensorTable {
     Vec3 point = Vec3::Zero();
     // mass_flow
     Vec3 normal = -Vec3::UnitZ();
-    // wall_force
+    // wall_force and wall_position
     std::string wall;
     // slope
     Vec3 along = Vec3::UnitX();
@@ -496,17 +516,21 @@ struct SensorTable {
 
     static void describe(auto& self, auto&& key)
     {
-        const std::vector<std::string_view> averaging = {"mass_flow", "slope", "region", "profile", "wall_force"};
+        const std::vector<std::string_view> averaging = {
+            "mass_flow", "slope", "region", "profile", "wall_force", "wall_position"};
         key("name", self.name, required(any()), "", "for reports");
         key("kind", self.kind,
-            required(deciding(one_of({"mass_flow", "repose", "slope", "region", "profile", "wall_force"}))), "", "");
+            required(
+                deciding(one_of({"mass_flow", "repose", "slope", "region", "profile", "wall_force", "wall_position"}))),
+            "", "");
         key("point", self.point, only_for({"mass_flow", "slope", "wall_force"}, any()), "m",
             "mass_flow: a point on the plane; slope: the middle of the surface; wall_force: what torques are about");
         key("normal", self.normal, only_for({"mass_flow"}, any()), "", "direction of the flow");
         key("along", self.along, required(only_for({"slope"}, any())), "",
             "direction along which the surface falls, at right angles to gravity");
         key("length", self.length, required(only_for({"slope"}, above(0.0))), "m", "of the measured part");
-        key("wall", self.wall, required(only_for({"wall_force"}, any())), "", "name of the wall");
+        key("wall", self.wall, required(only_for({"wall_force", "wall_position"}, any())), "",
+            "name of the wall; for wall_position, one of finite mass");
         key("region", self.region, required(only_for({"region", "profile"}, any())), "", "where");
         key("direction", self.direction, required(only_for({"profile"}, one_of({"x", "y", "z", "axial", "radial"}))),
             "", "in which bin follows bin: x, y or z in a box; axial or radial in a cylinder");

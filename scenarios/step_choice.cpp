@@ -4,6 +4,7 @@
 #include "core/placed_wall.hpp"
 #include "core/stabilisation.hpp"
 #include "scenarios/build_world.hpp"
+#include "scenarios/piston_speed.hpp"
 #include "scenarios/scene_error.hpp"
 
 #include <algorithm>
@@ -127,7 +128,8 @@ double fastest_speed(const Simulation& simulation)
     for (const auto& m : simulation.state.motion) start = std::max({start, m.velocity.norm(), m.rim_velocity.norm()});
     for (const auto& pour : simulation.pours) start = std::max(start, pour.velocity.norm());
     const double fall_gravity = std::abs(simulation.model.gravity.dot(simulation.model.up()));
-    return std::sqrt(start * start + 2.0 * fall_gravity * fall_height(simulation)) + fastest_wall(simulation);
+    return std::sqrt(start * start + 2.0 * fall_gravity * fall_height(simulation)) + fastest_wall(simulation) +
+           fastest_piston(simulation);
 }
 
 /// The materials that spheres are made of, now or later.

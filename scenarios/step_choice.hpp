@@ -11,7 +11,7 @@ namespace talus
 
 struct StepChoice {
     double step = 0.0;          ///< h [s]
-    double fastest_speed = 0.0; ///< that the scene can produce: starts, inlets, and the longest fall [m/s]
+    double fastest_speed = 0.0; ///< that the scene can produce: starts, inlets, walls, pistons, the longest fall [m/s]
     std::string explanation;    ///< one line
 };
 

@@ -33,7 +33,7 @@ TEST_CASE("a resumed run takes away the frames after its checkpoint", "[frames]"
     stored(frames);
     const std::string list = read_file(folder.path() / "particles.pvd");
     for (int k = 0; k < 3; ++k) frames.write_particles(simulation);
-    frames.write_walls(Model(), 0.0);
+    frames.write_walls(Model(), State());
 
     FrameWriter resumed(folder.path());
     Archive(stored.bytes())(resumed);

@@ -172,10 +172,11 @@ TEST_CASE("a region leaves out the spheres and contacts beside it", "[frames]")
 TEST_CASE("a wall frame has the walls that stand at its time", "[frames]")
 {
     const SceneFolder folder;
-    const Simulation simulation = stack_of_two();
+    Simulation simulation = stack_of_two();
     FrameWriter frames(folder.path());
-    frames.write_walls(simulation.model, 0.0);
-    frames.write_walls(simulation.model, 0.5);
+    frames.write_walls(simulation.model, simulation.state);
+    simulation.state.time = 0.5;
+    frames.write_walls(simulation.model, simulation.state);
     CHECK(read_frame(folder.path() / "frames/walls_000000.vtp")->GetNumberOfCells() == 4);
     const auto after = read_frame(folder.path() / "frames/walls_000001.vtp");
     REQUIRE(after->GetNumberOfCells() == 2);
