@@ -99,8 +99,6 @@ void require_piston(const scene::WallTable& w, std::size_t index)
     if (w.appear_at > 0.0 || w.remove_at < infinity)
         throw SceneError(
             key("mass"), "a wall of finite mass is there for the whole run: leave out 'appear_at' and 'remove_at'");
-    if (w.shape == "plane")
-        throw SceneError(key("shape"), "a plane has no end, so a wall of finite mass needs another shape");
     if (w.guide.isZero())
         throw SceneError(key("guide"), "a wall of finite mass needs a 'guide', the axis along which it moves");
 }

@@ -430,6 +430,7 @@ struct WallTable {
 
     static void describe(auto& self, auto&& key)
     {
+        const std::vector<std::string_view> bounded = {"box", "cylinder", "cone", "disk", "grains", "mesh"};
         key("name", self.name, required(any()), "", "for --set, reports and the wall frames");
         key("shape", self.shape, deciding(one_of({"plane", "box", "cylinder", "cone", "disk", "grains", "mesh"})), "",
             "plane: a half-space; grains: spheres fixed to each other, a rough bed; the others are thin, with two "
@@ -439,15 +440,16 @@ struct WallTable {
         key("remove_at", self.remove_at, or_infinite(at_least(0.0)), "s", "when the wall is taken away; inf: never");
         key("motion", self.motion, any(), "",
             "how the wall moves: one or more parts [[wall.motion]], each of which moves what comes of those before it");
-        key("mass", self.mass, or_infinite(above(0.0)), "kg",
+        key("mass", self.mass, only_for(bounded, or_infinite(above(0.0))), "kg",
             "finite: a piston, which its weight, its load and the spheres move; inf: the wall moves as told, whatever "
             "pushes");
-        key("guide", self.guide, any(), "",
+        key("guide", self.guide, only_for(bounded, any()), "",
             "needed with a finite mass: the axis along which alone it moves, without turning");
-        key("load", self.load, any(), "N",
+        key("load", self.load, only_for(bounded, any()), "N",
             "force on a finite mass besides its weight, along the guide; of rows [time, force]: straight lines in "
             "between, held at the ends");
-        key("released_at", self.released_at, at_least(0.0), "s", "until then a finite mass is held where it is");
+        key("released_at", self.released_at, only_for(bounded, at_least(0.0)), "s",
+            "until then a finite mass is held where it is");
         key("point", self.point, only_for({"plane"}, any()), "m", "a point on it");
         key("normal", self.normal, only_for({"plane", "disk"}, any()), "",
             "of a plane: into the free side; of a disk: at right angles to the plate");

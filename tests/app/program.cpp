@@ -84,6 +84,31 @@ to = 0.3
 )";
 }
 
+std::string loaded_beads()
+{
+    return replaced(beads_in_a_box, "duration = 0.05", "duration = 0.4") + R"([[wall]]
+name = "plate"
+shape = "box"
+min = [0.001, 0.001, 0.06]
+max = [0.049, 0.049, 0.07]
+material = "glass"
+mass = 0.5
+guide = [0, 0, -1]
+load = [[0.1, 0], [0.2, 20]]
+released_at = 0.02
+[[sensor]]
+name = "plate"
+kind = "wall_position"
+wall = "plate"
+from = 0.3
+[[sensor]]
+name = "on_plate"
+kind = "wall_force"
+wall = "plate"
+from = 0.3
+)";
+}
+
 Workplace::Workplace()
 {
     std::string name = (fs::temp_directory_path() / "talus-XXXXXX").string();

@@ -49,6 +49,9 @@ extern const std::string bead_on_a_table;
 /// Beads poured into the box fall through its open floor into an outlet, past a sensor: 0.4 s.
 std::string stream_of_beads();
 
+/// A heavy plate falls onto the beads and is pressed on them by a load that rises: 0.4 s.
+std::string loaded_beads();
+
 /// The text with one part of it replaced.
 /// @pre the part occurs
 std::string replaced(std::string text, const std::string& part, const std::string& replacement);

@@ -43,6 +43,21 @@ TEST_CASE("falls and rises of the energy are summed apart", "[app][energy]")
     CHECK(balance.gained() == Approx(0.5 + 0.25));
 }
 
+TEST_CASE("what loads and walls put in is no gain", "[app][energy]")
+{
+    EnergyBalance balance;
+    balance.add(report(0.0, 0.0, 0.0), true);
+    for (const double energy : {2.0, 5.0, 5.0}) {
+        StepReport r = report(energy, 0.0, 0.0);
+        r.wall_work = energy == 2.0 ? 1.5 : 0.0;
+        r.load_work = energy == 2.0 ? 0.5 : balance.put_in() < 4.0 ? 3.0 : 0.0;
+        balance.add(r, true);
+    }
+    CHECK(balance.put_in() == Approx(5.0));
+    CHECK(balance.gained() == 0.0);
+    CHECK(balance.lost() == 0.0);
+}
+
 TEST_CASE("what spheres bring in and take away is not the steps' doing", "[app][energy]")
 {
     EnergyBalance balance;

@@ -40,6 +40,8 @@ std::string shrinking_options(const fs::path& path)
         if (scene.pour[k].count > most)
             options += " --set pour." + std::to_string(k) + ".count=" + std::to_string(most);
     for (std::size_t k = 0; k < scene.wall.size(); ++k)
+        if (scene.wall[k].released_at > 0.0) options += " --set wall." + std::to_string(k) + ".released_at=0.01";
+    for (std::size_t k = 0; k < scene.wall.size(); ++k)
         for (std::size_t part = 0; part < scene.wall[k].motion.size(); ++part)
             if (scene.wall[k].motion[part].kind != "table")
                 options += " --set wall." + std::to_string(k) + ".motion." + std::to_string(part) + ".from=0.01";
@@ -85,6 +87,21 @@ TEST_CASE("pours, outlets, sensors, walls that go and spheres that escape go on 
     REQUIRE(place.talus("resume parts --until 0.3 --threads 1").exit_code == 0);
     REQUIRE(place.talus("resume parts --until 0.4 --threads 1").exit_code == 0);
     CHECK(differences(place.path("whole"), place.path("parts")) == none);
+}
+
+TEST_CASE("a plate of finite mass that presses on beads goes on where it was", "[app][resume]")
+{
+    const Workplace place;
+    place.write("scene.toml", loaded_beads());
+    REQUIRE(place.talus("run scene.toml -o whole --threads 2").exit_code == 0);
+    REQUIRE(place.talus("run scene.toml -o parts --until 0.17 --threads 1").exit_code == 0);
+    REQUIRE(place.talus("resume parts --until 0.21 --threads 2").exit_code == 0);
+    REQUIRE(place.talus("resume parts --until 0.4 --threads 1").exit_code == 0);
+    CHECK(differences(place.path("whole"), place.path("parts")) == none);
+    const auto plate = nlohmann::json::parse(place.read("parts/summary.json"))["sensors"]["plate"];
+    CHECK(plate["load"]["value"] == Approx(20.0));
+    CHECK(plate["travel"]["value"] == Approx(0.05).epsilon(0.01)); // from 0.06 m down to one layer of beads
+    CHECK(place.exists("parts/frames/moving_walls_000001.vtp"));
 }
 
 TEST_CASE("a run that was killed is resumed as if nothing had happened", "[app][resume]")

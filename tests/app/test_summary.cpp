@@ -40,4 +40,7 @@ TEST_CASE("an incident is told with id, place, speed and the wall touched last",
                                           Contains("123 m/s") && Contains("'funnel'"));
     const Incident lost{Incident::Kind::not_a_number, 7, Vec3::Constant(std::nan("")), std::nan(""), -1};
     CHECK_THAT(describe(lost, walls), Contains("sphere 7") && Contains("not a number") && Contains("no wall"));
+    const Incident piston{Incident::Kind::escaped, -1, Vec3(1.0, 2.0, 0.5), 3.0, 1};
+    CHECK_THAT(describe(piston, walls),
+        Contains("the wall 'funnel'") && Contains("left the world") && Contains("(1, 2, 0.5) m") && Contains("3 m/s"));
 }

@@ -72,7 +72,43 @@ State run_stirred(int threads)
     return state;
 }
 
+/// The box with a plate that is pressed down on the spheres, and turns none of them away.
+State run_pressed(int threads)
+{
+    Model model;
+    auto state = agitated_box(model, 9);
+    model.physics.pistons = true;
+    model.walls[1].piston = 0;
+    model.pistons.push_back({.wall = 1,
+        .mass = 0.3,
+        .guide = Vec3(0, 0.1, -1).normalized(),
+        .center = Vec3(0.06, 0.06, 0.03),
+        .inertia = block_inertia(0.3, Vec3(0.08, 0.08, 0.01)),
+        .load = {{0.0, 5.0}}});
+    state.pistons.resize(1);
+    state.pistons[0].pose.shift = -0.22 * model.pistons[0].guide;
+    ContactNetwork contacts;
+    const int before = omp_get_max_threads();
+    omp_set_num_threads(threads);
+    for (int k = 0; k < 600; ++k) advance(state, contacts, model);
+    omp_set_num_threads(before);
+    return state;
+}
+
 } // namespace
+
+TEST_CASE("every thread count gives the same bits with a piston", "[gauss_seidel][determinism][piston]")
+{
+    const auto one = run_pressed(1);
+    CHECK(one.pistons[0].guide_impulse.norm() > 0.0); // it has met spheres: its guide would have nothing to do else
+    for (const int threads : {2, 3, 4}) {
+        const auto many = run_pressed(threads);
+        CAPTURE(threads);
+        CHECK(same_bits(one.position, many.position));
+        CHECK(same_bits(one.motion, many.motion));
+        CHECK(same_bits(one.pistons, many.pistons));
+    }
+}
 
 TEST_CASE("every thread count gives the same bits with periodic axes and walls that move",
     "[gauss_seidel][determinism][periodicity]")

@@ -125,6 +125,23 @@ velocity = [0, 0, -0.1]
 [[wall.motion]]
 kind = "table"
 table = [[0, 0, 0, 0], [0.1, 0, 0, 0.3333333333333333]]
+[[wall]]
+name = "plate"
+shape = "disk"
+material = "glass"
+radius = 0.5
+mass = 2
+guide = [0, 0, -1]
+load = [[0.5, 0], [1, 0.3333333333333333]]
+released_at = 0.25
+[[wall]]
+name = "piston"
+shape = "disk"
+material = "glass"
+radius = 0.25
+mass = 0.3333333333333333
+guide = [1, 0, 0]
+load = -5
 [[sensor]]
 name = "surface"
 kind = "slope"

@@ -173,6 +173,7 @@ TEST_CASE("a wall frame has the walls that stand at its time", "[frames]")
 {
     const SceneFolder folder;
     Simulation simulation = stack_of_two();
+    simulation.state.time = 0.0;
     FrameWriter frames(folder.path());
     frames.write_walls(simulation.model, simulation.state);
     simulation.state.time = 0.5;

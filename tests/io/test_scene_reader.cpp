@@ -128,8 +128,9 @@ TEST_CASE("a key of another shape is refused with the shapes that have it and th
     CHECK(refusal_of("[[fill]]\nspacing = 1.2\narrangement = 'random'\n")
               .starts_with("scene.toml:2:1: key 'spacing' in [[fill]] goes with arrangement 'lattice', not 'random'"));
     CHECK(refusal_of("[[sensor]]\nname = 's'\nkind = 'repose'\nfrom = 1.0\n") ==
-          "scene.toml:4:1: key 'from' in [[sensor]] goes with kind 'mass_flow', 'slope', 'region', 'profile' or "
-          "'wall_force', not 'repose', whose keys are 'name', 'kind', 'base', 'inner_radius' and 'outer_radius'");
+          "scene.toml:4:1: key 'from' in [[sensor]] goes with kind 'mass_flow', 'slope', 'region', 'profile', "
+          "'wall_force' or 'wall_position', not 'repose', whose keys are 'name', 'kind', 'base', 'inner_radius' and "
+          "'outer_radius'");
 }
 
 TEST_CASE("a key that a shape must have is asked for where the table stands", "[scene_reader]")
@@ -192,6 +193,16 @@ TEST_CASE("a species is a table with all its keys", "[scene_reader]")
     CHECK(refusal("pour", "[{ material = 'a', diameter = 0.1, share = 0 }]") ==
           "scene.toml:4:54: 'share' must be a number above 0, not 0");
     CHECK(refusal("fill", "0.5") == "scene.toml:4:11: 'species' must be a list of tables [[fill.species]], not 0.5");
+}
+
+TEST_CASE("a load is a number, or rows of times and forces", "[scene_reader]")
+{
+    const std::string wall = "[[wall]]\nname = 'w'\nmaterial = 'a'\nshape = 'disk'\n";
+    const std::string expected = "'load' must be a number [N] or rows of two numbers [time, force], not ";
+    CHECK(refusal_of(wall + "load = 'heavy'\n") == "scene.toml:5:8: " + expected + "the string 'heavy'");
+    CHECK(refusal_of(wall + "load = [1, 2]\n") == "scene.toml:5:9: " + expected + "1");
+    CHECK(refusal_of(wall + "load = [[1, 2, 3]]\n") == "scene.toml:5:9: " + expected + "an array of 3");
+    CHECK(refusal_of(wall + "mass = 0\n") == "scene.toml:5:8: 'mass' must be a number above 0 [kg] or inf, not 0");
 }
 
 TEST_CASE("a motion's kind, keys and table are checked where they stand", "[scene_reader]")

@@ -24,7 +24,7 @@ TEST_CASE("the resolved scene reads back to itself, from another folder too", "[
     CHECK(again.wall[1].triangles.size() == 1);
     CHECK(again.world.periodic == std::vector<std::string>{"x"});
     CHECK_FALSE(again.world.rotation);
-    REQUIRE(again.wall.size() == 4);
+    REQUIRE(again.wall.size() == 6);
     CHECK(again.wall[2].spacing == 1.25);
     REQUIRE(again.wall[2].motion.size() == 2);
     CHECK(again.wall[2].motion[0].frequency == 30.0);
@@ -35,6 +35,16 @@ TEST_CASE("the resolved scene reads back to itself, from another folder too", "[
     REQUIRE(again.wall[3].motion[1].table.size() == 2);
     CHECK(again.wall[3].motion[1].table[1].time == 0.1);
     CHECK(again.wall[3].motion[1].table[1].shift == Vec3(0, 0, 0.3333333333333333));
+    CHECK(again.wall[3].mass == infinity);
+    CHECK(again.wall[3].load.empty());
+    REQUIRE(again.wall[4].load.size() == 2);
+    CHECK(again.wall[4].load[1].time == 1.0);
+    CHECK(again.wall[4].load[1].force == 0.3333333333333333);
+    CHECK(again.wall[4].released_at == 0.25);
+    CHECK(again.wall[5].mass == 0.3333333333333333);
+    REQUIRE(again.wall[5].load.size() == 1);
+    CHECK(again.wall[5].load[0].time == 0.0);
+    CHECK(again.wall[5].load[0].force == -5.0);
     CHECK(again.fill.at(1).species.at(0).diameter.sieve_sizes.size() == 2);
     CHECK(again.fill[1].species.at(1).diameter.median == 0.01);
     CHECK(again.fill.at(2).spheres.positions.at(0).isApprox(Vec3(0, 0, 2.01)));

@@ -110,6 +110,44 @@ std::function<void(S&)> repeat(
     };
 }
 
+/// Gives wall[0] a mass and a guide, then what `set` sets.
+std::function<void(S&)> give_mass(std::function<void(scene::WallTable&)> set)
+{
+    return [=](S& s) {
+        s.wall[0].mass = 1.0;
+        s.wall[0].guide = Vec3::UnitZ();
+        set(s.wall[0]);
+    };
+}
+
+const std::vector<Mistake> of_masses = {
+    {give_mass([](auto& w) { w.guide.setZero(); }), "wall[0].guide",
+        "a wall of finite mass needs a 'guide', the axis along which it moves"},
+    {give_mass([](auto& w) { w.motion.emplace_back().kind = "translate"; }), "wall[0].mass",
+        "a wall moves as told or as forces have it: leave out 'mass' or the motion"},
+    {give_mass([](auto& w) { w.remove_at = 1.0; }), "wall[0].mass",
+        "a wall of finite mass is there for the whole run: leave out 'appear_at' and 'remove_at'"},
+    {give_mass([](auto& w) { w.appear_at = 1.0; }), "wall[0].mass",
+        "a wall of finite mass is there for the whole run: leave out 'appear_at' and 'remove_at'"},
+    {give_mass([](auto& w) {
+         w.load = {{1.0, 2.0}, {1.0, 3.0}};
+     }),
+        "wall[0].load", "the times of 'load' must rise from row to row"},
+    {give_mass([](auto& w) { w.mass = infinity; }), "wall[0].guide", "'guide' goes with a finite 'mass'"},
+    {[](S& s) {
+         s.wall[0].load = {{0.0, 1.0}};
+     },
+        "wall[0].load", "'load' goes with a finite 'mass'"},
+    {[](S& s) { s.wall[0].released_at = 1.0; }, "wall[0].released_at", "'released_at' goes with a finite 'mass'"},
+    {repeat({"x"}, give_mass([](auto& w) { w.guide = Vec3(0.1, 0, 1); })), "wall[0].guide",
+        "a guide must not lead along a periodic axis"},
+    {[](S& s) {
+         s.sensor = {sensor("a", "wall_position")};
+         s.sensor[0].wall = "box";
+     },
+        "sensor[0].wall", "the wall 'box' has no finite mass: it is where it is told"},
+};
+
 const std::vector<Mistake> of_motions = {
     {add_motion("turn",
          [](auto& m) {
@@ -503,6 +541,10 @@ TEST_CASE("a scene with a mistake is not built, and the key and the reason are t
     SECTION("motions, periodic axes, rotation, grains and slopes")
     {
         check_all(of_motions);
+    }
+    SECTION("walls of finite mass")
+    {
+        check_all(of_masses);
     }
     SECTION("spheres")
     {

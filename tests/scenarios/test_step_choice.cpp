@@ -140,6 +140,49 @@ TEST_CASE("rigid contacts are forecast to be rigid", "[step_choice]")
     CHECK_THAT(build_scene(scene).overlap_forecast, Contains("rigid"));
 }
 
+TEST_CASE("a piston adds the speed with which it would meet the bed at its densest", "[step_choice]")
+{
+    auto scene = small_scene();
+    scene.time.duration = 1.0;
+    const double without = choose_step(scene, build_scene(scene)).fastest_speed;
+    auto& plate = scene.wall.emplace_back();
+    plate.name = "plate";
+    plate.shape = "disk";
+    plate.material = "glass";
+    plate.center = Vec3(0.025, 0.025, 0.15);
+    plate.radius = 0.02;
+    plate.mass = 2.0;
+    plate.guide = Vec3(0, 0, -1);
+    // Twenty beads of 10 mm fill 0.005 m of the box of 0.05 m by 0.05 m and more where they are not wholly dense.
+    const double bed = 20 * std::numbers::pi / 6.0 * 1e-6 / (0.7405 * 0.05 * 0.05);
+    double pull = 9.81;
+    SECTION("by its weight") {}
+    SECTION("pulled down by a load")
+    {
+        plate.load = {{0.0, 10.0}};
+        pull += 10.0 / 2.0;
+    }
+    SECTION("held back by a load that comes before its release")
+    {
+        plate.load = {{0.0, -15.0}};
+        plate.released_at = 0.3;
+        pull -= 15.0 / 2.0;
+    }
+    const double meets_at = std::sqrt(2.0 * pull * (0.15 - bed));
+    CHECK(choose_step(scene, build_scene(scene)).fastest_speed - without == Approx(meets_at).epsilon(0.01));
+}
+
+TEST_CASE("a piston whose load has not begun when the run ends is no faster than it gets", "[step_choice]")
+{
+    auto scene = small_scene();
+    scene.time.duration = 0.01;
+    const double without = choose_step(scene, build_scene(scene)).fastest_speed;
+    scene.wall[0].mass = 1.0;
+    scene.wall[0].guide = Vec3::UnitX();
+    scene.wall[0].load = {{0.0, 3.0}};
+    CHECK(choose_step(scene, build_scene(scene)).fastest_speed - without == Approx(0.03).epsilon(0.01));
+}
+
 TEST_CASE("a wall that moves adds the speed of its fastest point to that of the fastest sphere", "[step_choice]")
 {
     auto scene = small_scene();

@@ -7,7 +7,7 @@ namespace talus::test
 {
 
 /// Calls visit(arrays, k, with_wall) for the contacts of the last assembly in the order in which one thread sweeps
-/// them: tile by tile, those between spheres first.
+/// them: tile by tile, those between spheres first; then those with pistons.
 template <class Visit> void for_each_contact(const ContactNetwork& network, Visit&& visit)
 {
     const auto visit_some = [&](const ContactArrays& arrays, std::size_t first, std::size_t tile, bool with_wall) {
@@ -17,6 +17,7 @@ template <class Visit> void for_each_contact(const ContactNetwork& network, Visi
         visit_some(network.sphere_contacts, network.pairs_of_tile[tile], tile, false);
         visit_some(network.wall_contacts, network.wall_slots_of_tile[tile], tile, true);
     }
+    if (!network.piston_contacts.count.empty()) visit_some(network.piston_contacts, 0, 0, true);
 }
 
 } // namespace talus::test

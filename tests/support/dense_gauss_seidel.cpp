@@ -63,6 +63,38 @@ void add_contact(DenseProblem& p, const State& state, const DenseContact& contac
     p.basis.push_back(basis);
     p.friction.push_back(contact.friction);
     p.rolling_reach.push_back(contact.rolling_reach);
+    p.coupled.push_back(false);
+}
+
+/// A piston as the body of this number: v⁽¹⁾, mass and inertia.
+void add_piston_body(
+    DenseProblem& p, std::size_t body, const Piston& piston, const PistonState& own, const Model& model, double time)
+{
+    const Index column = 6 * static_cast<Index>(body);
+    p.inverse_mass.segment<3>(column).setConstant(1.0 / piston.mass);
+    p.inverse_mass.segment<3>(column + 3) = piston.inertia.diagonal().cwiseInverse();
+    p.velocity.segment<3>(column) =
+        own.velocity + model.time_step * (model.gravity + piston.load_at(time) / piston.mass * piston.guide);
+    p.velocity.segment<3>(column + 3) = own.spin;
+}
+
+/// The rows that a guide leaves to no motion, with what eq. (2) asks of them.
+void add_guide_rows(
+    DenseProblem& p, Index row, std::size_t body, const Piston& piston, const PistonState& own, double h)
+{
+    constexpr double upsilon = 1.0 / 9.0;
+    const Index column = 6 * static_cast<Index>(body);
+    const Vec3 across = any_perpendicular(piston.guide);
+    p.jacobian.block<1, 3>(row, column) = across.transpose();
+    p.jacobian.block<1, 3>(row + 1, column) = piston.guide.cross(across).transpose();
+    p.jacobian.block<3, 3>(row + 2, column + 3).setIdentity();
+    const Vec3 way = own.pose(piston.center) - piston.center;
+    p.target.segment<DenseProblem::guide_rows>(row).setZero();
+    for (Index i = 0; i < 2; ++i) {
+        const Vec3 direction = p.jacobian.block<1, 3>(row + i, column).transpose();
+        p.target[row + i] = upsilon * (direction.dot(own.velocity) - 4.0 / h * direction.dot(way));
+    }
+    p.impulse.segment<DenseProblem::guide_rows>(row) = own.guide_impulse.head<DenseProblem::guide_rows>();
 }
 
 /// The vector cut back to this length.
@@ -84,8 +116,46 @@ Eigen::VectorXd unconstrained_change(const DenseProblem& p, Index row, Index siz
     return -D.inverse() * r;
 }
 
+/// The minimum of ½ zᵀ D z + bᵀ z on a disk, by plain projected descent.
+Eigen::VectorXd minimum_on_disk(const Eigen::MatrixXd& D, const Eigen::VectorXd& b, double radius)
+{
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(b.size());
+    for (int step = 0; step < 3000; ++step) z = on_disk(z - (D * z + b) / D.trace(), radius);
+    return z;
+}
+
+/// y_k of some rows of a contact, and their block of D.
+struct Rows {
+    Eigen::MatrixXd D;
+    Eigen::VectorXd y;
+
+    Rows(const DenseProblem& p, Index row, Index size)
+    {
+        const Eigen::MatrixXd G = p.jacobian.middleRows(row, size);
+        const Eigen::VectorXd sigma = p.compliance.segment(row, size);
+        D = G * p.inverse_mass.asDiagonal() * G.transpose() + Eigen::MatrixXd(sigma.asDiagonal());
+        y = G * p.velocity + sigma.cwiseProduct(p.impulse.segment(row, size)) - p.target.segment(row, size);
+    }
+};
+
+/// Normal first, then the tangent with the change of the normal, on the disk of the new one.
+Eigen::VectorXd solved_coupled_contact(const DenseProblem& p, std::size_t k)
+{
+    const Index row = first_row(k);
+    Rows rows(p, row, contact_rows);
+    Eigen::VectorXd z = p.impulse.segment(row, contact_rows);
+    const double normal = std::max(0.0, z[0] - rows.y[0] / rows.D(0, 0));
+    rows.y += rows.D.col(0) * (normal - z[0]);
+    z[0] = normal;
+    const Eigen::MatrixXd D = rows.D.bottomRightCorner(2, 2);
+    const Eigen::VectorXd b = rows.y.tail(2) - D * z.tail(2);
+    z.tail(2) = minimum_on_disk(D, b, p.friction[k] * normal);
+    return z;
+}
+
 Eigen::VectorXd solved_contact(const DenseProblem& p, std::size_t k)
 {
+    if (p.coupled[k]) return solved_coupled_contact(p, k);
     const Index row = first_row(k);
     Eigen::VectorXd z = p.impulse.segment(row, contact_rows) + unconstrained_change(p, row, contact_rows);
     if (z[0] <= 0.0) return Eigen::VectorXd::Zero(contact_rows);
@@ -97,6 +167,11 @@ Eigen::VectorXd solved_rolling(const DenseProblem& p, std::size_t k)
 {
     const Index row = first_row(k) + contact_rows;
     if (p.rolling_reach[k] == 0.0) return Eigen::VectorXd::Zero(rolling_rows);
+    if (p.coupled[k]) {
+        const Rows rows(p, row, rolling_rows);
+        const Eigen::VectorXd b = rows.y - rows.D * p.impulse.segment(row, rolling_rows);
+        return minimum_on_disk(rows.D, b, p.rolling_reach[k] * p.impulse[first_row(k)]);
+    }
     const Eigen::VectorXd z = p.impulse.segment(row, rolling_rows) + unconstrained_change(p, row, rolling_rows);
     return on_disk(z, p.rolling_reach[k] * p.impulse[first_row(k)]);
 }
@@ -158,6 +233,30 @@ DenseProblem make_dense_problem(const State& state, const std::vector<DenseConta
     return p;
 }
 
+void add_pistons(DenseProblem& p, const State& state, const Model& model, const std::vector<DenseContact>& contacts)
+{
+    const Index rows = p.target.size(), columns = p.velocity.size();
+    const auto pistons = static_cast<Index>(model.pistons.size());
+    const Index more_rows = DenseProblem::guide_rows * pistons, more_columns = 6 * pistons;
+    p.jacobian.conservativeResizeLike(Eigen::MatrixXd::Zero(rows + more_rows, columns + more_columns));
+    for (auto* vector : {&p.compliance, &p.target, &p.drift, &p.impulse})
+        vector->conservativeResizeLike(Eigen::VectorXd::Zero(rows + more_rows));
+    for (auto* vector : {&p.inverse_mass, &p.velocity})
+        vector->conservativeResizeLike(Eigen::VectorXd::Zero(columns + more_columns));
+    for (std::size_t k = 0; k < model.pistons.size(); ++k) {
+        const std::size_t body = state.count() + k;
+        add_piston_body(p, body, model.pistons[k], state.pistons[k], model, state.time);
+        add_guide_rows(p, rows + DenseProblem::guide_rows * static_cast<Index>(k), body, model.pistons[k],
+            state.pistons[k], model.time_step);
+    }
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        if (contacts[k].piston < 0) continue;
+        fill_rows(p.jacobian, first_row(k), state.count() + static_cast<std::size_t>(contacts[k].piston),
+            contacts[k].piston_arm, p.basis[k], -1.0);
+        p.coupled[k] = true;
+    }
+}
+
 void warm_start(DenseProblem& p)
 {
     p.velocity += p.inverse_mass.asDiagonal() * (p.jacobian.transpose() * p.impulse);
@@ -169,6 +268,9 @@ void sweep(DenseProblem& p)
         apply(p, first_row(k), solved_contact(p, k));
         apply(p, first_row(k) + contact_rows, solved_rolling(p, k));
     }
+    constexpr Index size = DenseProblem::guide_rows;
+    for (Index row = first_row(p.friction.size()); row < p.target.size(); row += size)
+        apply(p, row, p.impulse.segment(row, size) + unconstrained_change(p, row, size));
 }
 
 double residual(const DenseProblem& p, const Eigen::VectorXd& warm_impulse)

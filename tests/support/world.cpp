@@ -54,6 +54,30 @@ void World::add_wall(Shape shape, WallMotion motion)
         std::move(motion)});
 }
 
+std::size_t World::add_piston(Shape shape, double mass, const Vec3& guide, std::vector<LoadPoint> load)
+{
+    const std::size_t index = model.pistons.size(), wall = model.walls.size();
+    const Box box = bounds(shape);
+    add_wall(std::move(shape));
+    model.walls[wall].piston = static_cast<std::int32_t>(index);
+    model.physics.pistons = true;
+    model.pistons.push_back({.wall = wall,
+        .mass = mass,
+        .guide = guide.normalized(),
+        .center = box.center(),
+        .inertia = block_inertia(mass, box.extent()),
+        .load = std::move(load)});
+    state.pistons.emplace_back();
+    return index;
+}
+
+Vec3 World::momentum() const
+{
+    Vec3 sum = linear_momentum(state);
+    for (std::size_t k = 0; k < model.pistons.size(); ++k) sum += model.pistons[k].mass * state.pistons[k].velocity;
+    return sum;
+}
+
 std::vector<PlacedWall> World::placed_walls() const
 {
     return place_walls(model, state, model.time_step);

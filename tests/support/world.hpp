@@ -49,6 +49,8 @@ struct World {
         const Vec3& angular_velocity = Vec3::Zero(), double radius = standard_radius,
         double density = standard_density);
     void add_wall(Shape shape, WallMotion motion = {});
+    /// A wall of finite mass, of even density in the box round it; returns its index among the pistons.
+    std::size_t add_piston(Shape shape, double mass, const Vec3& guide, std::vector<LoadPoint> load = {});
     void add_plane(const Vec3& point, const Vec3& normal) { add_wall(Plane{point, normal}); }
     void step(int count = 1);
 
@@ -62,6 +64,9 @@ struct World {
     Vec3 angular_velocity(std::int64_t id = 0) const { return state.angular_velocity(index_of(id)); }
     double mass(std::int64_t id = 0) const { return state.mass(index_of(id)); }
     double radius(std::int64_t id = 0) const { return state.radius(index_of(id)); }
+
+    /// Σ m v, pistons included [kg m/s].
+    Vec3 momentum() const;
 
     /// Contacts of the last step.
     std::vector<ContactForce> contact_forces() const;
