@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/piston_group.hpp"
 
+#include "core/contact_basis.hpp"
 #include "core/multibody/stepping.hpp"
 #include "core/stabilisation.hpp"
 
@@ -24,15 +25,6 @@ constexpr Index contact_rows = 1 + multibody::tangent_rows;
 
 /// τ/h of the guides: critical damping, as for the contacts (upsilon of stabilisation.hpp).
 constexpr double guide_relaxation = 2.0;
-
-/// Normal and two tangents as columns.
-Eigen::Matrix3d contact_basis(const Vec3& normal)
-{
-    const Vec3 tangent = any_perpendicular(normal);
-    Eigen::Matrix3d basis;
-    basis << normal, tangent, normal.cross(tangent);
-    return basis;
-}
 
 /// A sphere in the terms of its Motion: v with the mass m, and, where it turns, a = r ω with 2/5 m.
 void add_sphere(Problem& problem, const Motion& m, bool spin)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/step_problem.hpp"
 
+#include "core/contact_basis.hpp"
+
 namespace talus
 {
 namespace
@@ -12,16 +14,6 @@ using Eigen::VectorXd;
 using multibody::Law;
 
 constexpr Index contact_rows = 1 + multibody::tangent_rows;
-
-/// Normal and two tangents as columns.
-Eigen::Matrix3d contact_basis(const Vec3& normal)
-{
-    Eigen::Matrix3d basis;
-    basis.col(0) = normal;
-    basis.col(1) = any_perpendicular(normal);
-    basis.col(2) = normal.cross(basis.col(1));
-    return basis;
-}
 
 /// States a step's problem body by body, contact by contact.
 class Statement

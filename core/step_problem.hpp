@@ -17,6 +17,7 @@ struct StepProblem {
 
 /// States the problem that a step is about to solve. The rows of a contact are its normal n (from b to a), two
 /// tangents, and two axes of rolling where the scene has rolling resistance. Prescribed velocities of walls stand in q.
+/// @pre the model has no pistons, whose contacts have a problem of their own (piston_group.hpp)
 /// @pre begin_step has assembled the contacts; `state` has the velocities v⁽⁰⁾
 StepProblem make_step_problem(const State& state, const ContactNetwork& contacts, const Model& model);
 

@@ -253,6 +253,10 @@ const std::vector<Situation> situations = {
     {"a log file that cannot be written", "", run + " --log-file nowhere/log"},
     {"a disk that is full", "trap \"\" XFSZ; ulimit -f 16", run + " --set time.metrics_interval=1e-4"},
     {"a dump without a time", "", "dump scene.toml -o step.hdf5"},
+    {"a dump of a wall of finite mass",
+        "printf '[[wall]]\nname = \"w\"\nmaterial = \"glass\"\nshape = \"disk\"\nradius = 1\nmass = 1\n"
+        "guide = [0, 0, 1]\n' >> scene.toml",
+        "dump scene.toml --at 0.02 -o step.hdf5"},
     {"a dump into a folder that is not there", "", "dump scene.toml --at 0.02 -o nowhere/step.hdf5 --quiet"},
     {"a problem that is not there", "", "solve nowhere.hdf5"},
     {"a problem that is no HDF5 file", "", "solve scene.toml"},
