@@ -8,7 +8,6 @@
 #include "app/terminal.hpp"
 #include "core/step_problem.hpp"
 #include "io/fclib_problem.hpp"
-#include "io/input_error.hpp"
 #include "scenarios/scene_checks.hpp"
 
 #include <omp.h>
@@ -44,10 +43,6 @@ std::vector<Incident> step_until(Simulation& simulation, double time, Verbosity 
 ExitCode dump_step(const CommandLine& line)
 {
     OpenedScene opened = open_scene(line);
-    if (!opened.simulation.model.pistons.empty())
-        throw InputError(
-            fmt::format("{}: a step with a wall of finite mass is more than contacts of spheres, and cannot be dumped",
-                opened.name));
     if (line.threads > 0) omp_set_num_threads(line.threads);
     Simulation& simulation = opened.simulation;
     simulation.duration = line.at; // as far as the progress line goes

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/piston_group.hpp"
 
-#include "core/contact_basis.hpp"
-#include "core/multibody/stepping.hpp"
-#include "core/stabilisation.hpp"
+#include "core/step_parts.hpp"
 
 #include <numeric>
 
@@ -13,82 +11,9 @@ namespace
 {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using multibody::BodyRows;
 using multibody::Constraint;
 using multibody::Law;
-using multibody::Problem;
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, 6>;
-
-constexpr Index contact_rows = 1 + multibody::tangent_rows;
-
-/// τ/h of the guides: critical damping, as for the contacts (upsilon of stabilisation.hpp).
-constexpr double guide_relaxation = 2.0;
-
-/// A sphere in the terms of its Motion: v with the mass m, and, where it turns, a = r ω with 2/5 m.
-void add_sphere(Problem& problem, const Motion& m, bool spin)
-{
-    VectorXd mass = VectorXd::Constant(spin ? 6 : 3, 1.0 / m.inverse_mass);
-    if (spin) mass.tail<3>() /= inverse_inertia_factor;
-    problem.add_body(mass.asDiagonal(), VectorXd::Zero(mass.size())); // it comes with its velocity in each sweep
-}
-
-/// A piston with the velocity of its centre and its spin; p = M v⁽⁰⁾ + h f.
-void add_piston(Problem& problem, const Piston& piston, const PistonState& own, const Model& model, double time)
-{
-    const Eigen::Matrix3d inertia = own.pose.rotation * piston.inertia * own.pose.rotation.transpose();
-    MatrixXd mass = MatrixXd::Zero(6, 6);
-    mass.topLeftCorner<3, 3>().diagonal().setConstant(piston.mass);
-    mass.bottomRightCorner<3, 3>() = inertia;
-    const Vec3 force = piston.mass * model.gravity + piston.load_at(time) * piston.guide;
-    VectorXd momentum(6);
-    momentum << piston.mass * own.velocity + model.time_step * force, inertia * own.spin;
-    problem.add_body(mass, momentum);
-}
-
-/// What the sphere contributes to the rows of a contact: u = v + n × a, and ω = a/r for the rolling rows.
-MatrixXd sphere_rows(const Eigen::Matrix3d& basis, double radius, Index rows, bool spin)
-{
-    RowMatrix G = RowMatrix::Zero(rows, 6);
-    G.topLeftCorner<contact_rows, 3>() = basis.transpose();
-    for (Index i = 0; i < contact_rows; ++i) G.block<1, 3>(i, 3) = basis.col(i).cross(basis.col(0)).transpose();
-    for (Index i = contact_rows; i < rows; ++i)
-        G.block<1, 3>(i, 3) = basis.col(i - multibody::rolling_rows).transpose() / radius;
-    return G.leftCols(spin ? 6 : 3);
-}
-
-/// What the piston does: −(V + Ω × arm), and −Ω.
-MatrixXd piston_rows(const Eigen::Matrix3d& basis, const Vec3& arm, Index rows)
-{
-    RowMatrix G = RowMatrix::Zero(rows, 6);
-    G.topLeftCorner<contact_rows, 3>() = -basis.transpose();
-    for (Index i = 0; i < contact_rows; ++i) G.block<1, 3>(i, 3) = -arm.cross(basis.col(i)).transpose();
-    for (Index i = contact_rows; i < rows; ++i)
-        G.block<1, 3>(i, 3) = -basis.col(i - multibody::rolling_rows).transpose();
-    return G;
-}
-
-/// The rows of a guide: two directions across its axis, three turns, and the axis itself while the piston is held.
-void add_guide(Problem& problem, std::size_t body, const Piston& piston, const PistonState& own, bool held, double h)
-{
-    RowMatrix G = RowMatrix::Zero(held ? 6 : 5, 6);
-    const Vec3 across = any_perpendicular(piston.guide);
-    G.block<1, 3>(0, 0) = across.transpose();
-    G.block<1, 3>(1, 0) = piston.guide.cross(across).transpose();
-    G.block<3, 3>(2, 3).setIdentity();
-    if (held) G.block<1, 3>(5, 0) = piston.guide.transpose();
-
-    const Eigen::AngleAxisd turn(own.pose.rotation);
-    PistonState::GuideVector displacement, velocity;
-    displacement << own.pose(piston.center) - piston.center, turn.angle() * turn.axis();
-    velocity << own.velocity, own.spin;
-    const VectorXd gap = G * displacement, speed = G * velocity;
-    VectorXd target(G.rows());
-    for (Index i = 0; i < G.rows(); ++i)
-        target[i] = multibody::holonomic_row(gap[i], speed[i], infinity, guide_relaxation * h, h).target;
-    problem.add_constraint({.law = Law::equality}, {{body, G}}, VectorXd::Zero(G.rows()), target);
-}
 
 /// Makes the problem body by body, constraint by constraint.
 class ProblemMaker
@@ -96,19 +21,17 @@ class ProblemMaker
 public:
     ProblemMaker(const ContactNetwork& network, const State& state, const Model& model)
         : contacts_(network.piston_contacts), arms_(network.piston_arms), state_(state), model_(model),
-          rows_(contact_rows + (model.physics.rolling ? multibody::rolling_rows : 0)),
-          body_of_sphere_(state.count(), unknown)
+          rows_(rows_of_contact(model.physics)), body_of_sphere_(state.count(), unknown)
     {
     }
 
     PistonProblem make()
     {
         for (std::size_t k = 0; k < model_.pistons.size(); ++k)
-            add_piston(made_.problem, model_.pistons[k], state_.pistons[k], model_, state_.time);
+            add_piston_body(made_.problem, model_.pistons[k], state_.pistons[k], model_, state_.time);
         for (std::size_t k = 0; k < contacts_.count[0]; ++k) add_contact(k);
         for (std::size_t k = 0; k < model_.pistons.size(); ++k)
-            add_guide(made_.problem, k, model_.pistons[k], state_.pistons[k], !model_.pistons[k].is_free(state_.time),
-                model_.time_step);
+            add_guide(made_.problem, k, model_.pistons[k], state_.pistons[k], model_, state_.time);
         set_warm_impulse();
         return std::move(made_);
     }
@@ -130,7 +53,8 @@ private:
         if (body == unknown) {
             body = made_.problem.body_count();
             made_.spheres.push_back(sphere);
-            add_sphere(made_.problem, state_.motion[sphere], model_.physics.spin);
+            // without gravity: its velocity comes from the spheres in each sweep
+            add_sphere_body(made_.problem, state_.motion[sphere], model_.physics.spin, Vec3::Zero());
         }
         return body;
     }
@@ -147,8 +71,8 @@ private:
         target[0] = c.target;
         const auto piston = static_cast<std::size_t>(model_.walls[c.b].piston);
         made_.problem.add_constraint(law,
-            {{body_of(c.a), sphere_rows(basis, state_.radius(c.a), rows_, model_.physics.spin)},
-                {piston, piston_rows(basis, arms_[k], rows_)}},
+            {{body_of(c.a), sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, 1.0)},
+                {piston, piston_rows(basis, rows_, arms_[k])}},
             compliance, target);
         made_.warm_size += terms.inverse_mass_sum * c.impulse.squaredNorm();
         if (model_.physics.rolling)
@@ -160,11 +84,9 @@ private:
         const auto& constraints = made_.problem.constraints();
         made_.warm_impulse.resize(made_.problem.rows());
         for (std::size_t k = 0; k < contacts_.count[0]; ++k) {
-            auto own = made_.warm_impulse.segment(constraints[k].first_row, rows_);
-            own.head<contact_rows>() = made_.bases[k].transpose() * contacts_.contact[k].impulse;
-            if (model_.physics.rolling)
-                own.tail<multibody::rolling_rows>() =
-                    made_.bases[k].rightCols<multibody::rolling_rows>().transpose() * contacts_.rolling[k].impulse;
+            const Vec3 rolling = model_.physics.rolling ? contacts_.rolling[k].impulse : Vec3::Zero().eval();
+            made_.warm_impulse.segment(constraints[k].first_row, rows_) =
+                in_rows(made_.bases[k], rows_, contacts_.contact[k].impulse, rolling);
         }
         for (std::size_t k = 0; k < model_.pistons.size(); ++k) {
             const Constraint& guide = constraints[contacts_.count[0] + k];

@@ -106,6 +106,37 @@ void set_friction(FclibProblem& file, const std::vector<Constraint>& contacts)
     }
 }
 
+std::vector<Constraint> contacts_in(const multibody::Problem& problem)
+{
+    std::vector<Constraint> contacts = problem.constraints();
+    std::erase_if(contacts, [](const Constraint& constraint) { return constraint.law != Law::contact; });
+    return contacts;
+}
+
+/// M with a body for each compliance, H and G.
+void set_matrices(FclibProblem& file, const multibody::Problem& problem, Index contact_rows)
+{
+    SparseEntries M, transposed_jacobian;
+    for (std::size_t b = 0; b < problem.body_count(); ++b)
+        M.add(problem.first_dof(b), problem.first_dof(b), problem.mass(b));
+    for (std::size_t k = 0; k < problem.constraints().size(); ++k)
+        for (std::size_t i = problem.first_block(k); i < problem.first_block(k + 1); ++i)
+            transposed_jacobian.add(problem.first_dof(problem.body_of_block(i)), problem.constraints()[k].first_row,
+                problem.jacobian(i).transpose());
+    Index dofs = problem.dofs();
+    for (Index row = 0; row < contact_rows; ++row) {
+        const double compliance = problem.compliance()[row];
+        if (compliance == 0.0) continue;
+        M.add(dofs, dofs, Eigen::MatrixXd::Constant(1, 1, 1.0 / compliance));
+        transposed_jacobian.add(dofs, row, Eigen::MatrixXd::Ones(1, 1));
+        ++dofs;
+    }
+    file.M = M.matrix(dofs, dofs);
+    const auto all_rows = transposed_jacobian.matrix(dofs, problem.rows());
+    file.H = all_rows.leftCols(contact_rows);
+    file.G = all_rows.rightCols(problem.rows() - contact_rows);
+}
+
 } // namespace
 
 multibody::ProblemWithBodies with_bodies(const FclibProblem& file, const std::string& name)
@@ -127,30 +158,18 @@ multibody::AssembledProblem assembled(const FclibProblem& file, const std::strin
 FclibProblem to_fclib(const multibody::Problem& problem, const VectorXd& impulse)
 {
     FclibProblem file;
-    set_friction(file, problem.constraints());
-    SparseEntries M, H;
-    for (std::size_t b = 0; b < problem.body_count(); ++b)
-        M.add(problem.first_dof(b), problem.first_dof(b), problem.mass(b));
-    for (std::size_t k = 0; k < problem.constraints().size(); ++k)
-        for (std::size_t i = problem.first_block(k); i < problem.first_block(k + 1); ++i)
-            H.add(problem.first_dof(problem.body_of_block(i)), problem.constraints()[k].first_row,
-                problem.jacobian(i).transpose());
-    Index dofs = problem.dofs();
-    for (Index row = 0; row < problem.rows(); ++row) {
-        const double compliance = problem.compliance()[row];
-        if (compliance == 0.0) continue;
-        M.add(dofs, dofs, Eigen::MatrixXd::Constant(1, 1, 1.0 / compliance));
-        H.add(dofs, row, Eigen::MatrixXd::Ones(1, 1));
-        ++dofs;
-    }
-    file.M = M.matrix(dofs, dofs);
-    file.H = H.matrix(dofs, problem.rows());
-    file.G.resize(dofs, 0);
-    file.f = VectorXd::Zero(dofs);
+    set_friction(file, contacts_in(problem));
+    const Index contact_rows = file.rows_per_contact * file.contacts();
+    set_matrices(file, problem, contact_rows);
+    file.f = VectorXd::Zero(file.M.rows());
     for (std::size_t b = 0; b < problem.body_count(); ++b)
         problem.dofs_of(b, file.f) = problem.mass(b) * problem.dofs_of(b, problem.free_velocity());
-    file.w = -problem.target();
-    if (impulse.size() > 0) file.guesses.emplace_back().r = impulse;
+    file.w = -problem.target().head(contact_rows);
+    file.b = -problem.target().tail(problem.rows() - contact_rows);
+    if (impulse.size() == 0) return file;
+    FclibGuess& guess = file.guesses.emplace_back();
+    guess.r = impulse.head(contact_rows);
+    guess.l = impulse.tail(problem.rows() - contact_rows);
     return file;
 }
 

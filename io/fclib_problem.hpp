@@ -19,11 +19,12 @@ multibody::ProblemWithBodies with_bodies(const FclibProblem& problem, const std:
 /// @throws InputError where a contact joins bodies that cannot move
 multibody::AssembledProblem assembled(const FclibProblem& problem, const std::string& name);
 
-/// The global form of a problem whose constraints are contacts of three or five rows, all of the same number.
+/// The global form of a problem whose constraints are contacts of three or five rows, all of the same number, and after
+/// them rigid equalities, which are the columns of G.
 ///
 /// FCLIB has no Σ. A row's compliance becomes a body of its own with one degree of freedom and the mass 1/Σ that this
 /// row alone moves: W then is S_ε.
-/// @param impulse λ⁰, stored as the first guess; empty for none
+/// @param impulse λ⁰, stored as the first guess (r, l); empty for none
 FclibProblem to_fclib(const multibody::Problem& problem, const Eigen::VectorXd& impulse);
 
 } // namespace talus
