@@ -12,7 +12,8 @@ namespace
 
 constexpr double densest_packing = 0.7405;
 constexpr double upright = 0.99; ///< cosine of the steepest guide that counts as upright
-constexpr int samples = 20000;   ///< of a piston's free way in time
+constexpr double moment = 1e-4;  ///< between two looks at a piston on its free way [s]
+constexpr int most_looks = 1000000;
 
 /// Round all that may stop a piston: spheres, and walls that have an end.
 Box obstacles(const Simulation& simulation)
@@ -59,15 +60,14 @@ double free_way(const Piston& piston, const Simulation& simulation)
     return std::max(0.0, lower_end(own, up) - lower_end(box, up) - bed);
 }
 
-/// Of the free motion along the guide until it has made its way, or the run is over.
-double fastest_on(double way, const Piston& piston, const Simulation& simulation)
+/// Of the free motion along the guide until it has made its way. It does not matter when the run ends: one that goes on
+/// later must have the same step.
+double fastest_on(double way, const Piston& piston, const Vec3& gravity)
 {
-    const double step = (simulation.duration - piston.released_at) / samples;
     double travel = 0.0, speed = 0.0, fastest = 0.0;
-    for (int k = 0; k < samples && step > 0.0 && std::abs(travel) < way; ++k) {
-        const double time = piston.released_at + k * step;
-        speed += piston.guide.dot(piston.free_gain(simulation.model.gravity, time, step));
-        travel += step * speed;
+    for (int k = 0; k < most_looks && std::abs(travel) < way; ++k) {
+        speed += piston.guide.dot(piston.free_gain(gravity, piston.released_at + k * moment, moment));
+        travel += moment * speed;
         fastest = std::max(fastest, std::abs(speed));
     }
     return fastest;
@@ -79,7 +79,7 @@ double fastest_piston(const Simulation& simulation)
 {
     double fastest = 0.0;
     for (const Piston& piston : simulation.model.pistons)
-        fastest = std::max(fastest, fastest_on(free_way(piston, simulation), piston, simulation));
+        fastest = std::max(fastest, fastest_on(free_way(piston, simulation), piston, simulation.model.gravity));
     return fastest;
 }
 
