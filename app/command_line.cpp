@@ -161,7 +161,7 @@ void add_method_options(CLI::App& verb, SolveRequest& solve)
     using multibody::Order;
     add_choice<Algorithm>(verb, "--algorithm", solve.algorithm,
         {{"2.1", Algorithm::residual_update}, {"2.2", Algorithm::local_residual}, {"3.1", Algorithm::projected}},
-        "Of the note; 2.1 and 2.2 solve equalities only [3.1]");
+        "Of the lecture note that core/README.md tells of; 2.1 and 2.2 solve equalities only [3.1]");
     add_choice<LocalSolve>(verb, "--local", solve.settings.local,
         {{"sequential", LocalSolve::sequential}, {"block", LocalSolve::block}, {"sliding", LocalSolve::sliding},
             {"scalar", LocalSolve::scalar}},
@@ -170,7 +170,7 @@ void add_method_options(CLI::App& verb, SolveRequest& solve)
         {{"natural", Order::natural}, {"reversed", Order::reversed}, {"symmetric", Order::symmetric},
             {"shuffled", Order::shuffled}},
         "In which order a sweep goes through the contacts [natural]");
-    verb.add_option("--seed", solve.settings.seed, "Seed of shuffled orders [1]")->type_name("N");
+    verb.add_option("--seed", solve.settings.seed, "Seed of shuffled orders [1]")->type_name("N")->check(from_zero_up);
     verb.add_option("--omega", solve.settings.omega, "Relaxation, above 0 and below 2 [1]")
         ->type_name("W")
         ->check(CLI::Validator(
@@ -188,7 +188,8 @@ void add_solve(CLI::App& app, CommandLine& line)
     SolveRequest& solve = line.solve;
     verb->add_option("PROBLEM", solve.problem, "A contact problem in FCLIB's format (HDF5)")->required()->type_name("");
     add_method_options(*verb, solve);
-    verb->add_option("--tolerance", solve.settings.tolerance, "On the relative residual [1e-4]")
+    verb->add_option("--tolerance", solve.settings.tolerance,
+            "On the residual, the relative error of the impulses: README (9) [1e-4]")
         ->type_name("EPS")
         ->check(from_zero_up);
     verb->add_option("--max-sweeps", solve.settings.max_sweeps, "Cap on the sweeps [10000]")
@@ -203,7 +204,13 @@ void add_solve(CLI::App& app, CommandLine& line)
     add_quiet_flag(*verb, line);
     verb->footer("Example: talus solve hopper.hdf5 --tolerance 1e-6 --history history.csv -o solved.hdf5\n"
                  "Ends with 0 where the tolerance was met, 1 where it was not, 2 where the file is wrong.");
-    verb->callback([&] { line.verb = CommandLine::Verb::solve; });
+    verb->callback([&line, verb] {
+        line.verb = CommandLine::Verb::solve;
+        if (verb->count("--seed") > 0 && line.solve.settings.order != multibody::Order::shuffled)
+            throw UsageError("--seed is for --order shuffled");
+        if (verb->count("--local") > 0 && line.solve.algorithm != Algorithm::projected)
+            throw UsageError("--local is for --algorithm 3.1; equalities are solved as blocks");
+    });
 }
 
 } // namespace

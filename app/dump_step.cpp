@@ -8,6 +8,7 @@
 #include "app/terminal.hpp"
 #include "core/step_problem.hpp"
 #include "io/fclib_problem.hpp"
+#include "io/run_files.hpp"
 #include "scenarios/scene_checks.hpp"
 
 #include <omp.h>
@@ -43,6 +44,7 @@ std::vector<Incident> step_until(Simulation& simulation, double time, Verbosity 
 ExitCode dump_step(const CommandLine& line)
 {
     OpenedScene opened = open_scene(line);
+    require_writable(line.out);
     if (line.threads > 0) omp_set_num_threads(line.threads);
     Simulation& simulation = opened.simulation;
     simulation.duration = line.at; // as far as the progress line goes
@@ -56,10 +58,11 @@ ExitCode dump_step(const CommandLine& line)
     const StepProblem step = make_step_problem(simulation.state, simulation.contacts, simulation.model);
     FclibProblem file = to_fclib(step.problem, step.warm_impulse);
     file.title = fmt::format("{}: {}", opened.name, opened.scene.title);
-    file.description = fmt::format("Talus {}, contact problem of the step of {:.6g} s from t = {:.9g} s on; SI units, "
-                                   "impulses in N s. Guess 1 has "
-                                   "the impulses carried over from the step before.",
-        TALUS_VERSION, simulation.model.time_step, simulation.state.time);
+    file.description = fmt::format(
+        "Talus {}, contact problem of the step of {:.6g} s from t = {:.9g} s on, seed {}; SI units, impulses in N s. "
+        "Bodies: the spheres with (v, r omega), pistons with (v, omega), then one for each compliance. Guess 1 has the "
+        "impulses carried over from the step before.",
+        TALUS_VERSION, simulation.model.time_step, simulation.state.time, opened.scene.seed);
     write_fclib(file, line.out);
     if (line.verbosity != Verbosity::quiet)
         say("{}: {} contacts, {} spheres, t = {:.6g} s\n", line.out.string(), file.contacts(), simulation.state.count(),

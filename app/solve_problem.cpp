@@ -20,19 +20,34 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 using namespace multibody;
+namespace fs = std::filesystem;
 
 /// A clock that can be held while something is done that is not to be timed.
 class StopWatch
 {
 public:
-    double seconds() const { return elapsed_ + std::chrono::duration<double>(Clock::now() - begun_).count(); }
-    void hold() { elapsed_ = seconds(); }
-    void go_on() { begun_ = Clock::now(); }
+    /// What it shows [s].
+    double seconds() const { return before_ + (runs_ ? running() : 0.0); }
+
+    void hold()
+    {
+        before_ = seconds();
+        runs_ = false;
+    }
+
+    void go_on()
+    {
+        begun_ = Clock::now();
+        runs_ = true;
+    }
 
 private:
     using Clock = std::chrono::steady_clock;
     Clock::time_point begun_ = Clock::now();
-    double elapsed_ = 0.0;
+    double before_ = 0.0; ///< shown when it was last held
+    bool runs_ = true;
+
+    double running() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
 };
 
 /// The errors after each sweep as a CSV file, in the units of the problem.
@@ -122,20 +137,35 @@ VectorXd first_impulse(const SolveRequest& request, const FclibProblem& file, In
     if (static_cast<std::size_t>(request.guess) > file.guesses.size())
         throw UsageError(fmt::format("there is no guess {}: the file has {}", request.guess, file.guesses.size()));
     const FclibGuess& guess = file.guesses[static_cast<std::size_t>(request.guess) - 1];
+    if (guess.r.size() == 0 && file.contacts() > 0)
+        throw UsageError(fmt::format("guess {} of the file has no reactions r", request.guess));
     impulse.head(guess.r.size()) = guess.r;
     impulse.tail(guess.l.size()) = guess.l;
     return impulse;
+}
+
+const char* form_name(FclibForm form)
+{
+    switch (form) {
+    case FclibForm::local:
+        return "local";
+    case FclibForm::global:
+        return "global";
+    case FclibForm::global_rolling:
+        return "global rolling";
+    }
+    return "";
 }
 
 void print_problem(const FclibProblem& file)
 {
     const Index equalities = file.G.cols(), rows = file.rows_per_contact * file.contacts() + equalities;
     if (!file.title.empty()) say("{}\n", file.title);
-    say("{} form: {} contacts of {} rows", file.form == FclibForm::local ? "local" : "global", file.contacts(),
-        file.rows_per_contact);
+    say("{} form: {} contacts of {} rows", form_name(file.form), file.contacts(), file.rows_per_contact);
     if (equalities > 0) say(", {} equalities", equalities);
     say(", {} rows in all\n", rows);
     if (file.contacts() > 0) say("friction: {:.4g} to {:.4g}\n", file.mu.minCoeff(), file.mu.maxCoeff());
+    if (file.mu_r.size() > 0) say("rolling friction: {:.4g} to {:.4g}\n", file.mu_r.minCoeff(), file.mu_r.maxCoeff());
 }
 
 /// Degrees of freedom that some constraint touches: the rank of S is no larger.
@@ -151,11 +181,13 @@ Index touched_dofs(const Problem& problem)
     return dofs;
 }
 
-void print_rank(const Problem& problem)
+void print_rank(const ProblemWithBodies& bodies)
 {
+    const Problem& problem = bodies.problem;
     const Index dofs = touched_dofs(problem);
     say("bodies: {} degrees of freedom, {} of them touched; rank at most {} of {} rows{}\n", problem.dofs(), dofs,
-        std::min(dofs, problem.rows()), problem.rows(), dofs < problem.rows() ? ": impulses are not unique" : "");
+        std::min(dofs, problem.rows()), problem.rows(),
+        dofs < problem.rows() ? ": the impulses may not be unique" : "");
 }
 
 void print_rank(const AssembledProblem& problem)
@@ -171,7 +203,6 @@ void print_result(const AnyIterate& x, const TimedReport& report, const SolveReq
     const ErrorMeasures errors = measure_errors(x);
     say("sweeps: {}\nresidual: {:.3g}, tolerance {:.3g}{}\n", report.sweeps, errors.natural_map,
         request.settings.tolerance, report.converged ? "" : ": NOT MET");
-    if (!report.finite) say("an impulse is not a number: the sweeps diverge, and were stopped\n");
     say("worst velocity error: {:.3g}", errors.worst_velocity_error);
     if (errors.worst_spin_error > 0.0) say(", worst spin error: {:.3g}", errors.worst_spin_error);
     say("\nworst cone violation: {:.3g}\n", errors.cone_violation);
@@ -194,17 +225,34 @@ template <class AnyIterate> void store_solution(const AnyIterate& x, FclibProble
         x.residual_of(k, file.solution.u.segment(x.constraints()[k].first_row, x.constraints()[k].rows));
 }
 
+/// Why a solve did not meet its tolerance.
+std::string complaint(const TimedReport& report)
+{
+    if (!report.finite)
+        return fmt::format(
+            "the sweeps diverge: an impulse was not a number after {}; nothing is written", report.sweeps);
+    if (report.growing)
+        return fmt::format(
+            "the impulses have grown for {} sweeps and the laws are broken as before: there may be no solution",
+            report.sweeps);
+    return fmt::format("the tolerance was not met in {} sweeps", report.sweeps);
+}
+
 template <class AnyIterate, class AnyProblem>
 ExitCode solve_and_tell(AnyIterate& x, const AnyProblem& problem, const CommandLine& line, FclibProblem& file)
 {
     const bool speaks = line.verbosity != Verbosity::quiet;
     if (speaks) print_problem(file);
     if (speaks) print_rank(problem);
+    const auto start = line.solve.guess == 0 ? std::string("zero") : fmt::format("guess {}", line.solve.guess);
+    if (speaks) say("start: {}\n", start);
     const TimedReport report = solve(x, line.solve);
     if (speaks) print_result(x, report, line.solve);
     store_solution(x, file);
-    if (!report.converged)
-        warn("{}: the tolerance was not met in {} sweeps\n", line.solve.problem.string(), report.sweeps);
+    if constexpr (std::is_same_v<AnyProblem, ProblemWithBodies>)
+        file.solution.v = problem.in_order_of_matrices(x.velocity());
+    if (!report.converged) warn("{}: {}\n", line.solve.problem.string(), complaint(report));
+    if (!line.out.empty() && report.finite) write_fclib(file, line.out);
     return report.converged ? ExitCode::done : ExitCode::not_converged;
 }
 
@@ -213,22 +261,22 @@ ExitCode solve_and_tell(AnyIterate& x, const AnyProblem& problem, const CommandL
 ExitCode solve_problem(const CommandLine& line)
 {
     const SolveRequest& request = line.solve;
+    for (const auto& path : {request.history, line.out}) {
+        if (!path.empty() && fs::exists(path) && fs::exists(request.problem) && fs::equivalent(path, request.problem))
+            throw UsageError(fmt::format("{} is the problem itself; name another file for the result", path.string()));
+        if (!path.empty()) require_writable(path);
+    }
     FclibProblem file = read_fclib(request.problem);
     const std::string name = request.problem.string();
     require_algorithm(request, file);
-    ExitCode code;
     if (file.form == FclibForm::local) {
         const auto problem = assembled(file, name);
         AssembledIterate x(problem, first_impulse(request, file, problem.target.size()));
-        code = solve_and_tell(x, problem, line, file);
-    } else {
-        const auto bodies = with_bodies(file, name);
-        Iterate x(bodies.problem, first_impulse(request, file, bodies.problem.rows()));
-        code = solve_and_tell(x, bodies.problem, line, file);
-        file.solution.v = bodies.in_order_of_matrices(x.velocity());
+        return solve_and_tell(x, problem, line, file);
     }
-    if (!line.out.empty()) write_fclib(file, line.out);
-    return code;
+    const auto bodies = with_bodies(file, name);
+    Iterate x(bodies.problem, first_impulse(request, file, bodies.problem.rows()));
+    return solve_and_tell(x, bodies, line, file);
 }
 
 } // namespace talus

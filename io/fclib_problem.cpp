@@ -29,14 +29,29 @@ std::vector<Constraint> contacts_of(const FclibProblem& file)
     return contacts;
 }
 
-/// Without a positive D_kk no impulse can answer for a contact's velocity, and no error measure can weigh it.
+[[noreturn]] void refuse(const std::string& name, const Constraint& constraint, std::size_t k, const char* what)
+{
+    throw InputError(fmt::format("{}: {} {}: {}", name, constraint.law == Law::equality ? "row of G" : "contact",
+        constraint.law == Law::equality ? constraint.first_row : static_cast<Index>(k), what));
+}
+
+/// Where no reaction of its own can answer for a normal velocity, no error measure can weigh it.
 template <class AnyIterate> void require_answers(const AnyIterate& iterate, const std::string& name)
 {
-    for (std::size_t k = 0; k < iterate.constraints().size(); ++k)
-        if (iterate.diagonal_block(k).diagonal().minCoeff() <= 0.0)
-            throw InputError(fmt::format("{}: {} {} has a row in which its own reaction changes no velocity (diagonal "
-                                         "of W not positive); it joins bodies that cannot move",
-                name, iterate.constraints()[k].law == Law::equality ? "constraint" : "contact", k));
+    for (std::size_t k = 0; k < iterate.constraints().size(); ++k) {
+        const Constraint& constraint = iterate.constraints()[k];
+        const VectorXd diagonal = iterate.diagonal_block(k).diagonal();
+        if (diagonal.minCoeff() < 0.0) refuse(name, constraint, k, "the diagonal of W is negative");
+        if (diagonal[0] == 0.0)
+            refuse(name, constraint, k, "its reaction changes no velocity of its own; do its bodies move at all?");
+    }
+}
+
+/// @throws InputError
+void require_space(const FclibProblem& file, const std::string& name)
+{
+    if (file.rows_per_contact == 2)
+        throw InputError(name + ": a problem in the plane, with two rows a contact; only those in space are solved");
 }
 
 VectorXd joined(const VectorXd& a, const VectorXd& b)
@@ -141,6 +156,7 @@ void set_matrices(FclibProblem& file, const multibody::Problem& problem, Index c
 
 multibody::ProblemWithBodies with_bodies(const FclibProblem& file, const std::string& name)
 try {
+    require_space(file, name);
     auto problem = multibody::with_bodies(matrices_of(file));
     require_answers(multibody::Iterate(problem.problem), name);
     return problem;
@@ -150,6 +166,7 @@ try {
 
 multibody::AssembledProblem assembled(const FclibProblem& file, const std::string& name)
 {
+    require_space(file, name);
     multibody::AssembledProblem problem{contacts_of(file), file.W, -file.q};
     require_answers(multibody::AssembledIterate(problem), name);
     return problem;

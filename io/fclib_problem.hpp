@@ -11,12 +11,13 @@ namespace talus
 {
 
 /// The bodies' problem of a global form. Equalities come after the contacts.
-/// @throws InputError where M is not a mass matrix, or a contact joins bodies that cannot move
+/// @throws InputError where M is not a mass matrix, a contact joins bodies that cannot move, or the problem is one in
+/// the plane
 /// @param name with which the sentence of an error begins
 multibody::ProblemWithBodies with_bodies(const FclibProblem& problem, const std::string& name);
 
 /// The assembled problem of a local form: S = W, b = −q.
-/// @throws InputError where a contact joins bodies that cannot move
+/// @throws InputError where a contact joins bodies that cannot move, or the problem is one in the plane
 multibody::AssembledProblem assembled(const FclibProblem& problem, const std::string& name);
 
 /// The global form of a problem whose constraints are contacts of three or five rows, all of the same number, and after

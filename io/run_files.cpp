@@ -131,6 +131,13 @@ void make_run_folder(const fs::path& folder, const std::string& resolved_scene, 
     write_atomically(folder / marker, resolved_scene);
 }
 
+void require_writable(const fs::path& path)
+{
+    if (fs::is_directory(path)) refuse_output(path, std::strerror(EISDIR));
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) refuse_output(path, std::strerror(errno));
+}
+
 void write_atomically(const fs::path& path, std::string_view text)
 {
     write_atomically(path, {text});

@@ -20,6 +20,10 @@ namespace talus
 /// @throws InputError where the folder may not be used, OutputError where it cannot be written
 void make_run_folder(const std::filesystem::path& folder, const std::string& resolved_scene, bool force);
 
+/// Asks beforehand whether a file can be written later, so that nothing is computed in vain.
+/// @throws OutputError where the path is a folder, or its folder is not there or may not be written
+void require_writable(const std::filesystem::path& path);
+
 /// Writes a whole file at once: to a temporary name, flushed to the disk, then renamed.
 /// @throws OutputError
 void write_atomically(const std::filesystem::path& path, std::string_view text);

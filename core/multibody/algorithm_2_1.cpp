@@ -43,7 +43,8 @@ SolveReport solve_with_residual_update(Iterate& x, const SolveSettings& settings
         return sums;
     };
     return repeat_until_small(
-        settings, p.constraints().size(), sweep, [&] { return natural_map_sums(x, D); }, observer);
+        settings, p.constraints().size(), natural_map_sums(Iterate(p), D), sweep,
+        [&] { return natural_map_sums(x, D); }, observer);
 }
 
 } // namespace talus::multibody

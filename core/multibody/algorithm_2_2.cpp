@@ -43,7 +43,8 @@ LocalResidualReport solve_with_local_residual(Iterate& x, const SolveSettings& s
         return sums;
     };
     const auto report = repeat_until_small(
-        settings, p.constraints().size(), sweep, [&] { return natural_map_sums(x, D); }, observer);
+        settings, p.constraints().size(), natural_map_sums(Iterate(p), D), sweep,
+        [&] { return natural_map_sums(x, D); }, observer);
     return {report, running};
 }
 

@@ -39,7 +39,7 @@ SolveReport solve_projected(AnyIterate& x, const SolveSettings& settings, const 
 {
     ProjectedGaussSeidel<AnyIterate> algorithm(x, settings.local, settings.omega);
     return repeat_until_small(
-        settings, x.constraints().size(),
+        settings, x.constraints().size(), algorithm.measure(AnyIterate(x.problem())),
         [&](const std::vector<std::size_t>& sequence) { return algorithm.sweep(x, sequence); },
         [&] { return algorithm.measure(x); }, observer);
 }

@@ -49,9 +49,9 @@ template <class AnyIterate> SweepSums natural_map_sums(const AnyIterate& iterate
     return sums;
 }
 
-double relative_size(const SweepSums& sums, double least_size)
+double relative_size(const SweepSums& sums)
 {
-    return sums.change == 0.0 ? 0.0 : std::sqrt(sums.change / std::max(sums.size, least_size));
+    return sums.change == 0.0 ? 0.0 : std::sqrt(sums.change / sums.size);
 }
 
 template <class AnyIterate> ErrorMeasures measure_errors(const AnyIterate& iterate)

@@ -9,8 +9,9 @@ namespace talus::multibody
 
 /// How far an iterate is from the laws. Each number has one unit, so none depends on the choice of units.
 struct ErrorMeasures {
-    /// ε = (Σ W|δ|² / Σ W|λ|²)^½, README (9), with the natural map δ = λ − P(λ − y/d) in impulse units: P the
-    /// projection of constraint.hpp (normal first), d the scale of each row. Zero where all laws hold, and only there.
+    /// ε = (Σ W|δ|² / Σ W|λ|²)^½, README (9) without its λ⁰, with the natural map δ = λ − P(λ − y/d) in impulse units:
+    /// P the projection of constraint.hpp (normal first), d the scale of each row. Zero where all laws hold, and only
+    /// there.
     double natural_map = 0.0;
     double worst_velocity_error = 0.0; ///< largest d|δ| of the rows in m/s: by so much a contact breaks its law [m/s]
     double worst_spin_error = 0.0;     ///< likewise of rolling rows [rad/s]
@@ -23,7 +24,7 @@ template <class AnyIterate> ErrorMeasures measure_errors(const AnyIterate& itera
 /// The sums of ε alone, with blocks at hand.
 template <class AnyIterate> SweepSums natural_map_sums(const AnyIterate& iterate, const DiagonalBlocks& blocks);
 
-/// ε of such sums. @param least_size Σ W|λ⁰|² of the start, so that a solution without impulses is found too
-double relative_size(const SweepSums& sums, double least_size = 0.0);
+/// ε of such sums: zero where nothing is left to correct, infinite where there are no impulses to compare with.
+double relative_size(const SweepSums& sums);
 
 } // namespace talus::multibody

@@ -24,33 +24,46 @@ struct SolveSettings {
 struct SolveReport {
     int sweeps = 0;
     double residual = 0.0; ///< ε
-    bool converged = true; ///< ε ≤ tolerance
+    bool converged = true; ///< ε ≤ tolerance, and not only because the impulses have grown
     bool finite = true;    ///< false: an impulse was not a number any more, and the solve stopped there
+    bool growing = false;  ///< true: ε ≤ tolerance, but the laws are broken as before: there may be no solution
 };
 
 /// Called after each sweep with the number of sweeps so far.
 using SweepObserver = std::function<void(int)>;
 
+/// Where no impulses can fulfil the laws (a body pressed from two sides, equalities that contradict each other), the
+/// impulses grow without end and ε, which is relative to them, falls. So of the corrections that a contact alone would
+/// make at λ = 0, no more than this share may be left, in the norm of ε.
+inline constexpr double most_left_of_start = 0.1;
+
 /// "repeat … until error is small, or iteration time is exceeded", lines 5 and 16–23 of the note's algorithms.
+/// @param at_rest the sums of ε at λ = 0
 /// @param sweep changes the iterate in the order given and returns the sums of its changes; @param measure returns the
 /// sums of ε and changes nothing: it has the last word where the changes are small
 template <class Sweep, class Measure>
-SolveReport repeat_until_small(const SolveSettings& settings, std::size_t constraints, Sweep&& sweep, Measure&& measure,
-    const SweepObserver& observer)
+SolveReport repeat_until_small(const SolveSettings& settings, std::size_t constraints, const SweepSums& at_rest,
+    Sweep&& sweep, Measure&& measure, const SweepObserver& observer)
 {
     Traversal traversal(settings.order, constraints, settings.seed);
-    const SweepSums start = measure();
+    const double most_left = most_left_of_start * most_left_of_start * at_rest.change;
     SolveReport report;
-    report.residual = relative_size(start);
-    while (report.residual > settings.tolerance && report.sweeps < settings.max_sweeps && report.finite) {
+    const auto judge = [&](const SweepSums& error) {
+        report.residual = relative_size(error);
+        const bool small = report.residual <= settings.tolerance;
+        report.finite = std::isfinite(error.change);
+        report.growing = small && error.change > most_left;
+        report.converged = small && !report.growing && report.finite;
+    };
+    judge(measure());
+    while (!report.converged && report.sweeps < settings.max_sweeps && report.finite) {
         const SweepSums swept = sweep(traversal.next());
         ++report.sweeps;
         if (observer) observer(report.sweeps);
         report.finite = std::isfinite(swept.change);
-        if (relative_size(swept, start.size) <= settings.tolerance || report.sweeps == settings.max_sweeps)
-            report.residual = relative_size(measure(), start.size);
+        const bool last = report.sweeps == settings.max_sweeps || !report.finite;
+        if (relative_size(swept) <= settings.tolerance || last) judge(measure());
     }
-    report.converged = report.finite && report.residual <= settings.tolerance;
     return report;
 }
 

@@ -87,7 +87,6 @@ SlidingDirection sliding_direction(const Constraint& contact, const LocalVector&
 void solve_by_block(const LocalProblem& local, LocalVector y, LocalVector z)
 {
     z -= local.inverse.lazyProduct(y);
-    if (local.constraint.law == Law::contact && z[0] <= 0.0) z.setZero();
     project(local.constraint, z);
 }
 
@@ -101,8 +100,7 @@ void solve_along_sliding(const LocalProblem& local, LocalVector y, LocalVector z
     if (sliding.slides && denominator > 0.0) {
         const double normal = -(b + local.D.row(0).dot(sliding.stuck)) / denominator;
         z = std::max(0.0, normal) * sliding.direction + sliding.stuck;
-    } else if (z[0] <= 0.0)
-        z.setZero();
+    }
     project(local.constraint, z);
 }
 
@@ -143,19 +141,30 @@ void solve_locally(LocalSolve how, const LocalProblem& local, LocalVector y, Loc
 
 Vector2d solve_on_disk(const Eigen::Matrix2d& D, const Vector2d& b, double radius)
 {
-    constexpr int most_steps = 50; // some five do; exact at once where D is isotropic
+    constexpr int most_steps = 100; // some five do; exact at once where D is isotropic
     constexpr double exact_enough = 1e-14;
-    if (radius <= 0.0) return Vector2d::Zero();
-    double alpha = 0.0;
-    Vector2d z = -(D.inverse() * b);
-    // Newton on 1/|z(α)| = 1/radius with z(α) = −(D + α I)⁻¹ b: from α = 0 it comes up to the root and never passes it.
-    for (int step = 0; step < most_steps && z.norm() > radius * (1.0 + exact_enough); ++step) {
-        const Eigen::Matrix2d inverse = (D + alpha * Eigen::Matrix2d::Identity()).inverse();
-        z = -(inverse * b);
-        alpha += z.squaredNorm() / z.dot(inverse * z) * (z.norm() - radius) / radius;
+    const double push = b.norm();
+    if (radius <= 0.0 || push == 0.0) return Vector2d::Zero();
+    const auto solved = [&](double alpha) -> Vector2d {
+        return -((D + alpha * Eigen::Matrix2d::Identity()).inverse() * b);
+    };
+    const bool is_singular = D.determinant() <= std::numeric_limits<double>::epsilon() * D.squaredNorm();
+    const double least = is_singular ? exact_enough * D.norm() : 0.0; // in place of α = 0
+    if (solved(least).norm() <= radius) return solved(least);
+
+    // |z(α)| falls with α and reaches the radius between these two: Newton on 1/|z|, kept between them.
+    double low = std::max(least, push / radius - D.norm()), high = push / radius;
+    if (!std::isfinite(high)) return -radius / push * b;
+    double alpha = low;
+    Vector2d z = solved(alpha);
+    for (int step = 0; step < most_steps && std::abs(z.norm() - radius) > exact_enough * radius; ++step) {
+        (z.norm() > radius ? low : high) = alpha;
+        const Vector2d slope = (D + alpha * Eigen::Matrix2d::Identity()).inverse() * z;
+        const double newton = alpha + z.squaredNorm() / z.dot(slope) * (z.norm() - radius) / radius;
+        alpha = newton > low && newton < high ? newton : 0.5 * (low + high);
+        z = solved(alpha);
     }
-    const double length = z.norm();
-    return length > radius ? Vector2d(z * (radius / length)) : z;
+    return z * (radius / z.norm());
 }
 
 } // namespace talus::multibody

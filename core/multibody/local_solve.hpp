@@ -45,7 +45,7 @@ void solve_locally(LocalSolve how, const LocalProblem& local, LocalVector y, Loc
 /// The z with |z| ≤ radius for which D z + b = −α z, α ≥ 0, and α = 0 where |z| < radius: Coulomb's law for the tangent
 /// of one contact, and for a symmetric D the minimum of ½ zᵀ D z + bᵀ z on the disk (Moré & Sorensen 1983, for two
 /// unknowns).
-/// @pre the symmetric part of D is positive definite
+/// @pre the symmetric part of D is positive semidefinite; D need not be symmetric
 Eigen::Vector2d solve_on_disk(const Eigen::Matrix2d& D, const Eigen::Vector2d& b, double radius);
 
 } // namespace talus::multibody

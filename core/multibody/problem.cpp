@@ -3,6 +3,8 @@
 
 #include <Eigen/LU>
 
+#include <cassert>
+
 namespace talus::multibody
 {
 namespace
@@ -30,6 +32,7 @@ std::size_t Problem::add_constraint(Constraint constraint, const std::vector<Bod
 {
     constraint.first_row = rows();
     constraint.rows = target.size();
+    assert(constraint.law != Law::contact || constraint.rows == 1 + tangent_rows || constraint.rolls());
     constraints_.push_back(constraint);
     append(compliance_, compliance);
     append(target_, target);

@@ -28,6 +28,7 @@ public:
     explicit AssembledIterate(const AssembledProblem& problem);
     AssembledIterate(const AssembledProblem& problem, Eigen::VectorXd impulse);
 
+    const AssembledProblem& problem() const { return *problem_; }
     const std::vector<Constraint>& constraints() const { return problem_->constraints; }
     const Eigen::VectorXd& impulse() const { return impulse_; }
 

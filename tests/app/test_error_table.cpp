@@ -253,10 +253,6 @@ const std::vector<Situation> situations = {
     {"a log file that cannot be written", "", run + " --log-file nowhere/log"},
     {"a disk that is full", "trap \"\" XFSZ; ulimit -f 16", run + " --set time.metrics_interval=1e-4"},
     {"a dump without a time", "", "dump scene.toml -o step.hdf5"},
-    {"a dump of a wall of finite mass",
-        "printf '[[wall]]\nname = \"w\"\nmaterial = \"glass\"\nshape = \"disk\"\nradius = 1\nmass = 1\n"
-        "guide = [0, 0, 1]\n' >> scene.toml",
-        "dump scene.toml --at 0.02 -o step.hdf5"},
     {"a dump into a folder that is not there", "", "dump scene.toml --at 0.02 -o nowhere/step.hdf5 --quiet"},
     {"a problem that is not there", "", "solve nowhere.hdf5"},
     {"a problem that is no HDF5 file", "", "solve scene.toml"},
@@ -265,6 +261,8 @@ const std::vector<Situation> situations = {
     problem("a guess that is not there", "cp {} p.hdf5", "solve p.hdf5 --guess 7 --quiet"),
     problem("an unknown local solve", "cp {} p.hdf5", "solve p.hdf5 --local newton"),
     problem("a relaxation out of range", "cp {} p.hdf5", "solve p.hdf5 --omega 2"),
+    problem("a result in place of the problem", "cp {} p.hdf5", "solve p.hdf5 -o p.hdf5"),
+    problem("a seed of an order that is not shuffled", "cp {} p.hdf5", "solve p.hdf5 --seed 3"),
     problem("a tolerance that is not met", "cp {} p.hdf5", "solve p.hdf5 --max-sweeps 3 --quiet"),
 };
 

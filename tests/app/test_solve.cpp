@@ -63,6 +63,8 @@ TEST_CASE("solve ends with 1 where the tolerance is not met, and writes the resu
     REQUIRE(history.row_count() == 5);
     CHECK(history.value(4, history.column("sweep")) == 5.0);
     CHECK(history.value(4, history.column("residual")) < history.value(0, history.column("residual")));
+    for (std::size_t row = 1; row < 5; ++row)
+        CHECK(history.value(row, history.column("seconds")) >= history.value(row - 1, history.column("seconds")));
 }
 
 TEST_CASE("the choices of a solve choose", "[app][solve]")
@@ -91,6 +93,7 @@ TEST_CASE("a dumped step can be solved, from its own guess too", "[app][dump]")
 {
     const Workplace place;
     dump_beads(place);
+    CHECK(place.talus("solve step.hdf5 -o step.hdf5").exit_code == 2); // would lose the problem
     const auto file = read_fclib(place.path("step.hdf5"));
     CHECK(file.contacts() >= 8);
     CHECK_THAT(file.description, Contains("contact problem of the step of"));

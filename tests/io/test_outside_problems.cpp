@@ -172,6 +172,26 @@ TEST_CASE("a global problem and its assembled twin take the same way", "[multibo
     CHECK((x.impulse() - y.impulse()).norm() < 1e-10 * x.impulse().norm());
 }
 
+TEST_CASE("contacts in the plane, and contacts that nothing can answer, are refused with a sentence", "[fclib][errors]")
+{
+    FclibProblem file;
+    file.rows_per_contact = 2;
+    file.W = Eigen::MatrixXd::Identity(2, 2).sparseView();
+    file.q = VectorXd::Zero(2);
+    file.mu = VectorXd::Ones(1);
+    CHECK_THROWS_WITH(assembled(file, "p.hdf5"),
+        "p.hdf5: a problem in the plane, with two rows a contact; only those in space are solved");
+    file.rows_per_contact = 3;
+    file.q = VectorXd::Zero(3);
+    file.W = Vector3d(1.0, 1.0, -1.0).asDiagonal().toDenseMatrix().sparseView();
+    CHECK_THROWS_WITH(assembled(file, "p.hdf5"), "p.hdf5: contact 0: the diagonal of W is negative");
+    file.W = Vector3d(0.0, 1.0, 1.0).asDiagonal().toDenseMatrix().sparseView();
+    CHECK_THROWS_WITH(assembled(file, "p.hdf5"),
+        "p.hdf5: contact 0: its reaction changes no velocity of its own; do its bodies move at all?");
+    file.W = Vector3d(1.0, 1.0, 0.0).asDiagonal().toDenseMatrix().sparseView(); // a slider with one tangent
+    CHECK_NOTHROW(assembled(file, "p.hdf5"));
+}
+
 TEST_CASE("matrices that are no masses are refused with a sentence", "[fclib][errors]")
 {
     FclibProblem file;
@@ -201,9 +221,9 @@ TEST_CASE("matrices that are no masses are refused with a sentence", "[fclib][er
     broken.M.insert(4, 3) = 0.5;
     CHECK(refused(broken) == "p.hdf5: the mass matrix is not symmetric (block of row 3)");
     broken = file;
-    broken.H.coeffRef(2, 2) = 0.0;
-    CHECK(refused(broken) == "p.hdf5: contact 0 has a row in which its own reaction changes no velocity (diagonal of W "
-                             "not positive); it joins bodies that cannot move");
+    broken.H.coeffRef(0, 0) = 0.0;
+    CHECK(refused(broken) ==
+          "p.hdf5: contact 0: its reaction changes no velocity of its own; do its bodies move at all?");
     broken = file; // a chain through all of them: a dense block would have a million entries and more
     for (int i = 1; i < dofs; ++i) broken.M.insert(i, i - 1) = broken.M.insert(i - 1, i) = 0.1;
     CHECK(refused(broken) ==

@@ -79,6 +79,24 @@ TEST_CASE("rank-deficient equalities: the velocities are those of the direct sol
     CHECK(difference(by_2_2.velocity(), direct.velocity) < 1e-12);
 }
 
+TEST_CASE("rows that depend on each other within one block have a pseudo-inverse", "[multibody][degenerate]")
+{
+    // Eight rows on six degrees of freedom, rigid, and consistent: D_kk has rank six.
+    Random random(2);
+    const Eigen::MatrixXd rows = test::random_matrix(random, 8, 6);
+    Problem problem;
+    problem.add_body(2.0 * Eigen::MatrixXd::Identity(6, 6), test::random_matrix(random, 6, 1));
+    const Eigen::VectorXd velocity = test::random_matrix(random, 6, 1);
+    problem.add_constraint({.law = Law::equality}, {{0, rows}}, Eigen::VectorXd::Zero(8), rows * velocity);
+    for (const auto solve : {+[](Iterate& x) { return solve_with_residual_update(x, exact()); },
+             +[](Iterate& x) -> SolveReport { return solve_with_local_residual(x, exact()); },
+             +[](Iterate& x) { return solve_projected(x, exact()); }}) {
+        Iterate x(problem);
+        solve(x);
+        CHECK(difference(x.velocity(), velocity) < 1e-12);
+    }
+}
+
 TEST_CASE("the order of traversal and the relaxation change the way, not the solution", "[multibody]")
 {
     const auto problem = random_equalities({8, 12, 3, 2, 0.3}, 3);

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace talus;
 using namespace talus::multibody;
 using Eigen::MatrixXd;
@@ -101,6 +103,63 @@ TEST_CASE("an unsolved problem that ends without impulses is found to be solved"
     CHECK(report.sweeps == 2); // the second finds that nothing is left to do
     CHECK(x.impulse()[0] == 0.0);
     CHECK(x.velocity()[0] == Approx(1.0));
+}
+
+TEST_CASE("the natural map of one contact, by hand", "[multibody]")
+{
+    // d = (2, 4, 6): the tangents share the scale 5 and, in the sum, have the normal's weight 2. λ = (1, 0.2, 0), y = D
+    // λ
+    // + q: z = λ − y/d, its normal clamped, its tangent on the disk of radius 0.5 z_n.
+    Problem problem;
+    problem.add_body(Eigen::Vector3d(1.0 / 2, 1.0 / 4, 1.0 / 6).asDiagonal(), Eigen::Vector3d::Zero());
+    problem.add_constraint({.law = Law::contact, .friction = 0.5}, {{0, MatrixXd::Identity(3, 3)}}, VectorXd::Zero(3),
+        Eigen::Vector3d(1.0, -3.0, 0.0));
+    const Iterate x(problem, Eigen::Vector3d(1.0, 0.2, 0.0));
+    // y = (2 − 1, 0.8 + 3, 0); z = (0.5, 0.2 − 0.76, 0), cut to a tangent of −0.25; δ = (0.5, 0.45, 0)
+    const auto errors = measure_errors(x);
+    CHECK(errors.natural_map == Approx(std::sqrt((0.5 * 0.5 + 0.45 * 0.45) / (1.0 + 0.2 * 0.2))));
+    CHECK(errors.worst_velocity_error == Approx(5.0 * 0.45));
+    CHECK(errors.cone_violation == 0.0);
+}
+
+TEST_CASE("over-relaxed contacts stay in their cones", "[multibody][note]")
+{
+    const auto problem = coupled_contacts({});
+    Iterate x(problem);
+    ProjectedGaussSeidel<Iterate> algorithm(x, LocalSolve::sequential, 1.6);
+    for (int sweep = 0; sweep < 20; ++sweep) {
+        algorithm.sweep(x, {0, 1, 2});
+        CHECK(measure_errors(x).cone_violation < 1e-14);
+    }
+}
+
+TEST_CASE("what has no solution is never called solved", "[multibody][degenerate]")
+{
+    // Pressed by two platens that close, and two equalities that contradict each other: impulses grow for ever, and an
+    // error relative to them falls.
+    const auto law = GENERATE(Law::unilateral, Law::equality);
+    Problem problem;
+    problem.add_body(MatrixXd::Identity(1, 1), VectorXd::Zero(1));
+    const MatrixXd up = MatrixXd::Identity(1, 1);
+    const VectorXd zero = VectorXd::Zero(1), closing = VectorXd::Ones(1);
+    problem.add_constraint({.law = law}, {{0, up}}, zero, closing);
+    problem.add_constraint({.law = law}, {{0, -up}}, zero, closing);
+    Iterate x(problem);
+    const auto report = solve_projected(x, {.tolerance = 1e-3, .max_sweeps = 5000});
+    CHECK(report.residual < 1e-3);
+    CHECK_FALSE(report.converged);
+    CHECK(report.growing);
+    CHECK(report.sweeps == 5000);
+}
+
+TEST_CASE("a solve that starts from far too much does not stop there", "[multibody][degenerate]")
+{
+    const auto problem = test::column(std::vector<double>(20, 1.0));
+    Iterate x(problem, 1e7 * VectorXd::Ones(20));
+    const auto report = solve_projected(x, {.tolerance = 1e-4, .max_sweeps = 100000});
+    CHECK(report.converged);
+    CHECK(measure_errors(x).natural_map <= 1e-4);
+    CHECK(measure_errors(x).natural_map == report.residual);
 }
 
 TEST_CASE("a solve that stops at its cap says so", "[multibody]")

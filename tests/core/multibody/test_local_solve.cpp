@@ -79,26 +79,43 @@ TEST_CASE("where D is diagonal with equal tangents all local solves are the exac
     }
 }
 
-TEST_CASE("tangent on a disk obeys Coulomb's law, coupled or not", "[multibody]")
+TEST_CASE("tangent on a disk obeys Coulomb's law, coupled or not, symmetric or not", "[multibody]")
 {
     Random random(5);
+    const double skew = GENERATE(0.0, 0.01, 1.0); // outside problems have blocks that are not quite symmetric
     int sliding = 0;
     for (int k = 0; k < 1000; ++k) {
-        const Eigen::Matrix2d D = coupled_block(random, 3.0, 2);
+        Eigen::Matrix2d D = coupled_block(random, 3.0, 2);
+        D(0, 1) += skew;
+        D(1, 0) -= skew;
         const Vector2d b = test::random_matrix(random, 2, 1);
         const double radius = 0.5 * uniform(random);
         const Vector2d z = solve_on_disk(D, b, radius);
-        const Vector2d y = D * z + b;
+        const Vector2d slip = D * z + b;
         if (z.norm() < radius * (1.0 - 1e-12)) {
-            CHECK(y.norm() < 1e-14);
+            CHECK(slip.norm() < 1e-13);
         } else {
             ++sliding;
-            CHECK(z.norm() == Approx(radius));
-            CHECK((y.normalized() + z.normalized()).norm() < 1e-7 / std::max(1e-3, y.norm()) * 1e-3);
+            CHECK(z.norm() == Approx(radius).epsilon(1e-12));
+            CHECK(slip.dot(z) + slip.norm() * z.norm() < 1e-12 * radius); // against the slip
         }
     }
     CHECK(sliding > 300);
+}
+
+TEST_CASE("tangent on a disk where the block is singular or the disk next to nothing", "[multibody][degenerate]")
+{
+    const Eigen::Matrix2d parallel = Eigen::Matrix2d::Ones(); // both tangents are the same
     CHECK(solve_on_disk(Eigen::Matrix2d::Identity(), Vector2d(1, 1), 0.0) == Vector2d::Zero());
+    CHECK(solve_on_disk(parallel, Vector2d::Zero(), 1.0) == Vector2d::Zero());
+    for (const Vector2d& b : {Vector2d(1.0, 1.0), Vector2d(1.0, -1.0), Vector2d(1.0, 0.3)})
+        for (const double radius : {1e-312, 1e-3, 0.3, 10.0}) {
+            CAPTURE(b, radius);
+            const Vector2d z = solve_on_disk(parallel, b, radius);
+            const Vector2d slip = parallel * z + b;
+            CHECK(z.norm() <= radius * (1.0 + 1e-12));
+            CHECK(slip.dot(z) + slip.norm() * z.norm() < 1e-10 * std::max(radius, z.norm()));
+        }
 }
 
 TEST_CASE("what the sequential solve leaves as it is obeys the law in coupled blocks too", "[multibody]")
@@ -152,6 +169,37 @@ TEST_CASE("the sign of (18)'s normal impulse does not tell whether a coupled con
     const auto normal_velocity = [&](LocalSolve how) { return (D * solved(how, contact(0.2), D, b, 500) + b)[0]; };
     CHECK(normal_velocity(LocalSolve::block) == b[0]); // goes on to close
     CHECK(std::abs(normal_velocity(LocalSolve::sequential)) < 1e-12);
+}
+
+TEST_CASE(
+    "(20)-(21) with rolling rows: what sticks keeps its part of (18), what slides follows z_1", "[multibody][note]")
+{
+    // Tangent slides along (1, 0), rolling sticks; d_12 = 0.2, d_14 = 0.3. By hand: (18) gives z; then
+    // z_1 (1 + 0.3 · 0.2) = −(b_1 + 0.3 z_4).
+    MatrixXd D = MatrixXd::Identity(5, 5);
+    D(0, 1) = D(1, 0) = 0.2;
+    D(0, 3) = D(3, 0) = 0.3;
+    const VectorXd b = (VectorXd(5) << -1.0, -2.0, 0.0, 0.1, 0.0).finished();
+    const VectorXd sticking = -D.inverse() * b;
+    const auto constraint = contact(0.3, 10.0, 5);
+    REQUIRE(sticking[1] > 0.3 * sticking[0]);
+    const VectorXd z = solved(LocalSolve::sliding, constraint, D, b);
+    CHECK(z[0] == Approx((1.0 - 0.3 * sticking[3]) / 1.06));
+    CHECK(z[1] == Approx(0.3 * z[0]));
+    CHECK(z[3] == Approx(sticking[3]));
+}
+
+TEST_CASE("one pass of the sequential solve, by hand", "[multibody]")
+{
+    // Normal −b_1/d_11; its change enters the tangent, and the tangent's the rolling row.
+    MatrixXd D = MatrixXd::Identity(5, 5);
+    D(0, 1) = D(1, 0) = 0.5;
+    D(1, 3) = D(3, 1) = 0.25;
+    const VectorXd b = (VectorXd(5) << -2.0, 0.4, 0.0, 0.1, 0.0).finished();
+    const VectorXd z = solved(LocalSolve::sequential, contact(10.0, 10.0, 5), D, b);
+    CHECK(z[0] == Approx(2.0));
+    CHECK(z[1] == Approx(-(0.4 + 0.5 * 2.0)));
+    CHECK(z[3] == Approx(-(0.1 + 0.25 * z[1])));
 }
 
 TEST_CASE("(21) falls back on (19) where its denominator is not positive", "[multibody][note]")
