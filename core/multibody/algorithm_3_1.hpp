@@ -10,7 +10,7 @@ namespace talus::multibody
 
 /// Algorithm 3.1: projected Gauss–Seidel, each constraint by its law, eq. (17).
 /// @tparam AnyIterate Iterate, where residuals come from the velocities, eq. (16), or AssembledIterate, where they come
-/// from the rows of S_ε, eq. (9)
+/// from the rows of S_ε, eq. (9). Both have constraints, impulse, diagonal_block, residual_of and add.
 template <class AnyIterate> class ProjectedGaussSeidel
 {
 public:
