@@ -22,12 +22,11 @@ namespace
 /// went well.
 std::vector<Incident> step_until(Simulation& simulation, double time, Verbosity verbosity)
 {
-    constexpr double negligible_step = 1e-3; // only rounding is to blame for less
     PhaseClock clock;
     Progress progress(verbosity, simulation);
     StepWatch watch(simulation.model);
     StepReport report;
-    while (simulation.state.time < time - negligible_step * simulation.model.time_step && report.incidents.empty()) {
+    while (!has_reached(simulation, time) && report.incidents.empty()) {
         report = step(simulation);
         progress.update(simulation, report, clock.wall());
         const std::string warning = watch.warning_after(report);

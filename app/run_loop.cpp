@@ -15,9 +15,6 @@ namespace talus
 namespace
 {
 
-/// A share of a step; when no more than that is missing to the end, only rounding is to blame.
-constexpr double negligible_step = 1e-3;
-
 /// Escapes told one by one on standard error.
 constexpr std::size_t escapes_told = 5;
 
@@ -114,13 +111,12 @@ RunEnd RunLoop::run()
 
 bool RunLoop::is_over() const
 {
-    return simulation_.state.time >= simulation_.duration - negligible_step * simulation_.model.time_step;
+    return has_reached(simulation_, simulation_.duration);
 }
 
 bool RunLoop::next_step_is_last() const
 {
-    const double h = simulation_.model.time_step;
-    return static_cast<double>(simulation_.state.steps + 1) * h >= simulation_.duration - negligible_step * h;
+    return has_reached(simulation_, simulation_.duration, 1);
 }
 
 bool RunLoop::stops_the_run(const StepReport& report) const

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 class History
 {
 public:
-    explicit History(const std::filesystem::path& path)
+    explicit History(const fs::path& path)
         : file_(path, {"sweep", "seconds", "residual", "worst_velocity_error", "worst_spin_error", "cone_violation"})
     {
     }
@@ -40,7 +40,7 @@ private:
 
 /// @param solve calls the algorithm with an observer
 template <class AnyIterate, class Solve>
-TimedReport timed(const AnyIterate& x, const std::filesystem::path& history_path, Solve&& solve)
+TimedReport timed(const AnyIterate& x, const fs::path& history_path, Solve&& solve)
 {
     std::optional<History> history;
     if (!history_path.empty()) history.emplace(history_path);

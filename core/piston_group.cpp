@@ -13,7 +13,6 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 using multibody::Constraint;
-using multibody::Law;
 
 /// Makes the problem body by body, constraint by constraint.
 class ProblemMaker
@@ -64,16 +63,10 @@ private:
         const Contact& c = contacts_.contact[k];
         const ContactTerms& terms = contacts_.terms[k];
         const auto& basis = made_.bases.emplace_back(contact_basis(c.normal));
-        Constraint law{.law = Law::contact, .friction = terms.friction};
-        if (model_.physics.rolling) law.rolling_reach = contacts_.rolling[k].reach;
-        VectorXd compliance = VectorXd::Zero(rows_), target = VectorXd::Zero(rows_);
-        compliance[0] = terms.compliance;
-        target[0] = c.target;
         const auto piston = static_cast<std::size_t>(model_.walls[c.b].piston);
-        made_.problem.add_constraint(law,
+        talus::add_contact(made_.problem, contacts_, k, basis, rows_,
             {{body_of(c.a), sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, 1.0)},
-                {piston, piston_rows(basis, rows_, arms_[k])}},
-            compliance, target);
+                {piston, piston_rows(basis, rows_, arms_[k])}});
         made_.warm_size += terms.inverse_mass_sum * c.impulse.squaredNorm();
         if (model_.physics.rolling)
             made_.warm_size += contacts_.rolling[k].impulse.squaredNorm() / contacts_.rolling[k].inertia;
@@ -83,11 +76,9 @@ private:
     {
         const auto& constraints = made_.problem.constraints();
         made_.warm_impulse.resize(made_.problem.rows());
-        for (std::size_t k = 0; k < contacts_.count[0]; ++k) {
-            const Vec3 rolling = model_.physics.rolling ? contacts_.rolling[k].impulse : Vec3::Zero().eval();
+        for (std::size_t k = 0; k < contacts_.count[0]; ++k)
             made_.warm_impulse.segment(constraints[k].first_row, rows_) =
-                in_rows(made_.bases[k], rows_, contacts_.contact[k].impulse, rolling);
-        }
+                impulse_in_rows(contacts_, k, made_.bases[k], rows_);
         for (std::size_t k = 0; k < model_.pistons.size(); ++k) {
             const Constraint& guide = constraints[contacts_.count[0] + k];
             made_.warm_impulse.segment(guide.first_row, guide.rows) = state_.pistons[k].guide_impulse.head(guide.rows);

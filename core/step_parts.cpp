@@ -71,6 +71,26 @@ MatrixXd sphere_rows(
     return G.leftCols(spin ? 6 : 3);
 }
 
+void add_contact(Problem& problem, const ContactArrays& arrays, std::size_t k, const Eigen::Matrix3d& basis, Index rows,
+    const std::vector<multibody::BodyRows>& bodies)
+{
+    const ContactTerms& terms = arrays.terms[k];
+    VectorXd compliance = VectorXd::Zero(rows), target = VectorXd::Zero(rows);
+    compliance[0] = terms.compliance;
+    if (!arrays.wall.empty()) target = in_rows(basis, rows, arrays.wall[k].velocity, arrays.wall[k].spin);
+    target[0] += arrays.contact[k].target;
+    problem.add_constraint({.law = Law::contact,
+                               .friction = terms.friction,
+                               .rolling_reach = arrays.rolling.empty() ? 0.0 : arrays.rolling[k].reach},
+        bodies, compliance, target);
+}
+
+VectorXd impulse_in_rows(const ContactArrays& arrays, std::size_t k, const Eigen::Matrix3d& basis, Index rows)
+{
+    const Vec3 rolling = arrays.rolling.empty() ? Vec3::Zero().eval() : arrays.rolling[k].impulse;
+    return in_rows(basis, rows, arrays.contact[k].impulse, rolling);
+}
+
 void add_piston_body(Problem& problem, const Piston& piston, const PistonState& own, const Model& model, double time)
 {
     const Eigen::Matrix3d inertia = own.pose.rotation * piston.inertia * own.pose.rotation.transpose();

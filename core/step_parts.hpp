@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/contact_network.hpp"
 #include "core/model.hpp"
 #include "core/multibody/problem.hpp"
 #include "core/state.hpp"
@@ -29,6 +30,15 @@ void add_sphere_body(multibody::Problem& problem, const Motion& motion, bool spi
 /// @param sign 1 for a, −1 for b
 Eigen::MatrixXd sphere_rows(
     const Eigen::Matrix3d& basis, Eigen::Index rows, const Motion& motion, bool spin, double sign, double arm_scale);
+
+/// Appends a contact: its law, its compliance and its target, in which the prescribed velocity of a wall stands.
+/// @param bodies what they contribute to its rows
+void add_contact(multibody::Problem& problem, const ContactArrays& arrays, std::size_t k, const Eigen::Matrix3d& basis,
+    Eigen::Index rows, const std::vector<multibody::BodyRows>& bodies);
+
+/// The impulses that a contact has, by its rows.
+Eigen::VectorXd impulse_in_rows(
+    const ContactArrays& arrays, std::size_t k, const Eigen::Matrix3d& basis, Eigen::Index rows);
 
 /// A piston with the velocity of its centre and its spin; p = M v⁽⁰⁾ + h f.
 void add_piston_body(

@@ -72,22 +72,12 @@ private:
     void add_contact(const ContactArrays& arrays, std::size_t k, RowsOfOther&& rows_of_other)
     {
         const Contact& c = arrays.contact[k];
-        const ContactTerms& terms = arrays.terms[k];
-        const bool rolls = model_.physics.rolling;
         const Eigen::Matrix3d basis = contact_basis(c.normal);
         std::vector<BodyRows> bodies = {{static_cast<std::size_t>(c.a),
-            sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, terms.arm_scale)}};
+            sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, arrays.terms[k].arm_scale)}};
         if constexpr (!std::is_null_pointer_v<std::decay_t<RowsOfOther>>) bodies.push_back(rows_of_other(basis));
-
-        VectorXd compliance = VectorXd::Zero(rows_), target = VectorXd::Zero(rows_);
-        compliance[0] = terms.compliance;
-        if (!arrays.wall.empty()) target = in_rows(basis, rows_, arrays.wall[k].velocity, arrays.wall[k].spin);
-        target[0] += c.target;
-        stated_.problem.add_constraint({.law = multibody::Law::contact,
-                                           .friction = terms.friction,
-                                           .rolling_reach = rolls ? arrays.rolling[k].reach : 0.0},
-            bodies, compliance, target);
-        append_warm(in_rows(basis, rows_, c.impulse, rolls ? arrays.rolling[k].impulse : Vec3::Zero().eval()));
+        talus::add_contact(stated_.problem, arrays, k, basis, rows_, bodies);
+        append_warm(impulse_in_rows(arrays, k, basis, rows_));
     }
 
     void append_warm(const VectorXd& impulse) { warm_.insert(warm_.end(), impulse.begin(), impulse.end()); }

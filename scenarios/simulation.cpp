@@ -41,6 +41,13 @@ BegunStep begin_step(Simulation& simulation)
     return begin_step(simulation.state, simulation.contacts, simulation.model);
 }
 
+bool has_reached(const Simulation& simulation, double time, std::int64_t steps_ahead)
+{
+    constexpr double negligible_step = 1e-3;
+    const double h = simulation.model.time_step;
+    return static_cast<double>(simulation.state.steps + steps_ahead) * h >= time - negligible_step * h;
+}
+
 OverlapCheck check_overlaps(const Simulation& simulation)
 {
     const auto& state = simulation.state;

@@ -44,6 +44,11 @@ StepReport step(Simulation& simulation, const PhaseObserver& observer = {});
 /// The beginning of a step: spheres come and go, and `contacts` has the problem that the rest of it would solve.
 BegunStep begin_step(Simulation& simulation);
 
+/// Whether the simulation is at this time, or past it, up to a thousandth of a step, for which only rounding is to
+/// blame.
+/// @param steps_ahead to make first
+bool has_reached(const Simulation& simulation, double time, std::int64_t steps_ahead = 0);
+
 /// What sensors look at after a step.
 inline Snapshot snapshot(const Simulation& simulation, const StepReport& report)
 {
