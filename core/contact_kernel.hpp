@@ -92,14 +92,20 @@ template <class R> Vec3 solved_impulse(const Contact& c, const ContactTerms& ter
     }
 }
 
+/// Spin of sphere a relative to b, or to the wall [rad/s].
+template <bool wall, class R> Vec3 relative_spin(const Contact& c, const SideRows& rows, const Motion* motion)
+{
+    Vec3 spin = motion[c.a].rim_velocity / motion[c.a].radius;
+    if constexpr (!wall) spin -= motion[c.b].rim_velocity / motion[c.b].radius;
+    if constexpr (wall && R::moving_walls) spin -= rows.wall->spin;
+    return spin;
+}
+
 /// The rolling row's impulse on the disk |τ| ≤ μ_r R* λ_n, against the relative spin across the normal; README (8).
 template <bool wall, class R> Vec3 solved_rolling_impulse(const Contact& c, const SideRows& rows, const Motion* motion)
 {
     const RollingRow& row = *rows.rolling;
-    const Motion& a = motion[c.a];
-    Vec3 spin = a.rim_velocity / a.radius;
-    if constexpr (!wall) spin -= motion[c.b].rim_velocity / motion[c.b].radius;
-    if constexpr (wall && R::moving_walls) spin -= rows.wall->spin;
+    const Vec3 spin = relative_spin<wall, R>(c, rows, motion);
     Vec3 impulse = row.impulse - row.inertia * (spin - spin.dot(c.normal) * c.normal);
     const double largest = row.reach * c.impulse.dot(c.normal);
     const double size_squared = impulse.squaredNorm();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/gauss_seidel.hpp"
 
-#include "core/contact_kernel.hpp"
+#include "core/tile_contacts.hpp"
 #include "core/tile_crew.hpp"
 
 #include <algorithm>
@@ -13,20 +13,6 @@ namespace talus
 {
 namespace
 {
-
-/// Calls visit(contact, terms, rows, is_wall) for the contacts of one tile, spheres first.
-template <class Visit> void for_each_contact(ContactNetwork& network, std::size_t tile, Visit&& visit)
-{
-    const auto visit_all = [&](ContactArrays& arrays, std::size_t first, auto is_wall) {
-        RollingRow* rolling = arrays.rolling.empty() ? nullptr : arrays.rolling.data();
-        const WallRow* wall = arrays.wall.empty() ? nullptr : arrays.wall.data();
-        for (std::size_t k = first; k < first + arrays.count[tile]; ++k)
-            visit(arrays.contact[k], arrays.terms[k],
-                SideRows{rolling ? rolling + k : nullptr, wall ? wall + k : nullptr}, is_wall);
-    };
-    visit_all(network.sphere_contacts, network.pairs_of_tile[tile], std::false_type{});
-    visit_all(network.wall_contacts, network.wall_slots_of_tile[tile], std::true_type{});
-}
 
 template <class R, bool apply> SweepSums relax_tile(ContactNetwork& network, std::size_t tile, Motion* motion)
 {
@@ -114,20 +100,6 @@ SolveReport solve(
         report = {sweeps, error, error <= solver.tolerance};
     });
     return report;
-}
-
-/// Calls work(Rows<…>{}) with what the scene needs.
-template <bool with_moving_walls, class Work> auto with_rows(const ModelledPhysics& physics, Work&& work)
-{
-    if (physics.rolling) return work(Rows<true, true, true, with_moving_walls>{});
-    if (physics.spin) return work(Rows<true, true, false, with_moving_walls>{});
-    if (physics.friction) return work(Rows<true, false, false, with_moving_walls>{});
-    return work(Rows<false, false, false, with_moving_walls>{});
-}
-
-template <class Work> auto with_rows(const ModelledPhysics& physics, Work&& work)
-{
-    return physics.moving_walls ? with_rows<true>(physics, work) : with_rows<false>(physics, work);
 }
 
 } // namespace

@@ -23,6 +23,7 @@ struct SolverSettings {
     double tolerance = 1e-2;            ///< on the residual ε, see gauss_seidel.hpp
     double restitution_threshold = 3.0; ///< impacts slower than this times gravity × step do not rebound
     double push_out_speed = infinity;   ///< cap on the speed with which overlap is undone [m/s]
+    bool pressure_scaling = false;      ///< before the sweeps, see pressure_scaling/; with `projected` only
 };
 
 /// What the scene needs; the rest does not exist in the step.

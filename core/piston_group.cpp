@@ -99,6 +99,7 @@ PistonGroup::PistonGroup(const ContactNetwork& network, const State& state, cons
       algorithm_(iterate_, multibody::LocalSolve::sequential), sequence_(own_.problem.constraints().size())
 {
     std::iota(sequence_.begin(), sequence_.end(), std::size_t{0});
+    guides_.assign(sequence_.end() - static_cast<std::ptrdiff_t>(model.pistons.size()), sequence_.end());
 }
 
 double PistonGroup::warm_start(Motion* motion)
@@ -121,6 +122,22 @@ SweepSums PistonGroup::measure(const Motion* motion)
 {
     fetch(motion);
     return algorithm_.measure(iterate_);
+}
+
+WallRow PistonGroup::motion_at(std::size_t piston, const Vec3& arm) const
+{
+    const auto velocity = own_.problem.dofs_of(piston, iterate_.velocity());
+    const Vec3 spin = velocity.tail<3>();
+    return {velocity.head<3>() + spin.cross(arm), spin};
+}
+
+void PistonGroup::scale(const std::vector<double>& growth, Motion* motion)
+{
+    fetch(motion);
+    for (std::size_t k = 0; k < growth.size(); ++k)
+        iterate_.add(k, growth[k] * own_.problem.rows_of(k, iterate_.impulse()));
+    algorithm_.sweep(iterate_, guides_);
+    put_back(motion);
 }
 
 void PistonGroup::store(ContactNetwork& network, State& state) const

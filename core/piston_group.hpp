@@ -51,6 +51,13 @@ public:
     /// The sums of ε at these velocities.
     SweepSums measure(const Motion* motion);
 
+    /// How the surface of a piston moves at this arm from its centre.
+    WallRow motion_at(std::size_t piston, const Vec3& arm) const;
+
+    /// The impulses of contact k grow by the share growth[k], and velocities with them; then the guides take up what
+    /// would leave them.
+    void scale(const std::vector<double>& growth, Motion* motion);
+
     /// Writes the impulses into the contacts, velocities and guide impulses into the pistons.
     void store(ContactNetwork& network, State& state) const;
 
@@ -59,6 +66,7 @@ private:
     multibody::Iterate iterate_;
     multibody::ProjectedGaussSeidel<multibody::Iterate> algorithm_;
     std::vector<std::size_t> sequence_; ///< of the constraints
+    std::vector<std::size_t> guides_;   ///< the last of them
 
     void fetch(const Motion* motion);
     void put_back(Motion* motion) const;

@@ -7,6 +7,7 @@
 #include "core/gauss_seidel.hpp"
 #include "core/piston_group.hpp"
 #include "core/position_projection.hpp"
+#include "core/pressure_scaling/pressure_scaling.hpp"
 #include "core/stabilisation.hpp"
 
 namespace talus
@@ -66,13 +67,15 @@ void mark_leaving(State& state, const std::vector<Region>& outlets)
 }
 
 StepReport make_report(const BegunStep& begun, const ContactNetwork& contacts, const SolveReport& solve,
-    const ContactOutcome& outcome, std::vector<WallLoad> loads, double load_work, StateSurvey bodies)
+    const ScalingReport& scaling, const ContactOutcome& outcome, std::vector<WallLoad> loads, double load_work,
+    StateSurvey bodies)
 {
     const ContactSurvey& survey = begun.survey;
     const auto overlapping = static_cast<double>(survey.overlapping);
     return {.sweeps = solve.sweeps,
         .residual = solve.residual,
         .converged = solve.converged,
+        .scaling = scaling,
         .candidates = contacts.pairs.size() + contacts.wall_pairs.size(),
         .contacts = survey.contacts,
         .overlapping = survey.overlapping,
@@ -128,6 +131,10 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
     add_gravity(state.motion, model.gravity, h);
     const double warm_size = apply_warm_start(contacts, pistons, state.motion, model.physics);
 
+    // Where the load has changed, the pressure changes with it, through the whole bed at once: λ⁰ ← θ λ⁰.
+    const auto scaling =
+        model.solver.pressure_scaling ? scale_pressure(contacts, pistons, state, model) : ScalingReport{};
+
     // The contact impulses: every contact in turn until all laws hold.
     enter(Phase::sweeps);
     const auto solve = solve_contacts(contacts, pistons, state.motion, model.physics, model.solver, warm_size);
@@ -148,7 +155,8 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
     enter(Phase::report);
     mark_leaving(state, model.outlets);
     const auto outcome = carry_impulses(contacts, state);
-    return make_report(begun, contacts, solve, outcome, std::move(loads), load_work, survey_state(state, model));
+    return make_report(
+        begun, contacts, solve, scaling, outcome, std::move(loads), load_work, survey_state(state, model));
 }
 
 } // namespace talus

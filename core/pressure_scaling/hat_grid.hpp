@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/periodicity.hpp"
+#include "core/vector.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace talus
+{
+
+/// A cell of the lattice, or a node: the lower corner of the cell of its number.
+using LatticeIndex = std::array<std::int32_t, 3>;
+
+/// Where a point lies among the nodes.
+struct HatPlace {
+    LatticeIndex cell = {};
+    Vec3 fraction = Vec3::Zero(); ///< of the cell's edges, in [0, 1]
+
+    /// φ of the node at this corner (0 or 1 along each axis) of the cell.
+    double hat(const std::array<int, 3>& corner) const
+    {
+        double product = 1.0;
+        for (int d = 0; d < 3; ++d) product *= corner[d] ? fraction[d] : 1.0 - fraction[d];
+        return product;
+    }
+};
+
+/// A cubic lattice of nodes in a box, each with its hat function φ: 1 at the node, 0 at all others, trilinear between.
+/// The hats add up to 1 everywhere.
+///
+/// Along a periodic axis the world is divided into at least three equal cells at least as long as the spacing; where it
+/// is too short for that, the hats do not vary along it.
+class HatGrid
+{
+public:
+    /// @param spacing of the nodes [m]; doubled until the box has few enough of them to be counted through
+    /// @param around all points that will be asked for
+    HatGrid(double spacing, const Box& around, const Periodicity& periodicity);
+
+    HatPlace place_of(const Vec3& x) const;
+
+    /// From one cell to another along an axis, the short way round where it is periodic.
+    std::int32_t cells_between(int axis, std::int32_t from, std::int32_t to) const;
+
+    /// Nodes are numbered from 0 to node_count() − 1. A cell has the number of its lowest node.
+    std::size_t node_count() const;
+    std::size_t number(const LatticeIndex& node) const;
+    LatticeIndex node(std::size_t number) const;
+
+private:
+    Vec3 origin_ = Vec3::Zero();
+    Vec3 spacing_;
+    LatticeIndex low_ = {};    ///< the first node along each axis …
+    LatticeIndex extent_ = {}; ///< … and how many there are
+    std::array<bool, 3> periodic_ = {};
+};
+
+} // namespace talus

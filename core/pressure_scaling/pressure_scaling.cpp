@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pressure_scaling/pressure_scaling.hpp"
+
+#include "core/pressure_scaling/galerkin.hpp"
+#include "core/tile_contacts.hpp"
+#include "core/tile_crew.hpp"
+
+#include <algorithm>
+
+namespace talus
+{
+namespace
+{
+
+using Eigen::VectorXd;
+
+constexpr double hat_spacing = 4.0;        ///< mean diameters …
+constexpr double widest_grain = 1.0;       ///< … and at least so many largest ones: a sphere must fit into a cell
+constexpr double least_growth = -0.8;      ///< α of a node: impulses stay positive …
+constexpr double most_growth = 4.0;        ///< … and what carried little does not run away
+constexpr double coarse_tolerance = 1e-4;  ///< of the coarse system, on r·D⁻¹r
+constexpr int most_coarse_iterations = 30; ///< 10 are too few, more gain nothing
+
+HatGrid make_grid(const State& state, const Model& model)
+{
+    Box around;
+    for (const Vec3& x : state.position) around.extend(x);
+    const double spacing = std::max(hat_spacing * model.mean_diameter, widest_grain * model.max_diameter);
+    return {spacing, around.grown(0.5 * model.max_diameter), model.periodicity};
+}
+
+/// t along α at which the energy is least, at most 1; 0 where it rises from the start.
+double line_search(const CoarseEnergy& energy, const VectorXd& alpha)
+{
+    const double slope = energy.power.dot(alpha);
+    const double curvature = alpha.dot(energy.curvature.times(alpha));
+    return slope < 0.0 && curvature > 0.0 ? std::min(1.0, -slope / curvature) : 0.0;
+}
+
+/// The share by which the impulse of each load grows.
+std::vector<double> growth_of_loads(
+    const Loads& loads, const HatGrid& grid, const CoarseEnergy& energy, const VectorXd& growth)
+{
+    const auto count = static_cast<std::int64_t>(loads.list.size());
+    std::vector<double> result(loads.list.size());
+#pragma omp parallel for schedule(static) if (count > 1000)
+    for (std::int64_t i = 0; i < count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        for_each_hat(loads.list[k], grid, energy.row_of,
+            [&](std::int32_t row, double hat) { result[k] += hat == 0.0 ? 0.0 : hat * growth[row]; });
+    }
+    return result;
+}
+
+template <class R>
+void apply(ContactNetwork& network, const Loads& loads, const std::vector<double>& growth, Motion* motion)
+{
+    const auto scale = [&](std::size_t tile) {
+        auto k = loads.first[tile];
+        for_each_contact(network, tile, [&](Contact& c, const ContactTerms& terms, const SideRows& rows, auto is_wall) {
+            if (!is_loaded(c)) return;
+            const double share = growth[k++];
+            const Vec3 change = share * c.impulse;
+            c.impulse += change;
+            apply_impulse<is_wall(), R>(c, terms, change, motion);
+            if constexpr (R::rolling) {
+                const Vec3 rolling = share * rows.rolling->impulse;
+                rows.rolling->impulse += rolling;
+                apply_rolling_impulse<is_wall()>(c, rolling, motion);
+            }
+        });
+    };
+    with_tile_crew(network.tiles, [&](TileCrew& crew) { crew.color_by_color(scale); });
+}
+
+} // namespace
+
+ScalingReport scale_pressure(ContactNetwork& network, PistonGroup& pistons, State& state, const Model& model)
+{
+    const HatGrid grid = make_grid(state, model);
+    const Loads loads = find_loads(network, pistons, state, model, grid);
+    if (loads.list.empty()) return {};
+
+    // Where would the pressure have to grow, and how far may it without the energy rising?
+    const CoarseEnergy energy = coarse_energy(loads, grid, state, model);
+    const VectorXd alpha = energy.curvature.solved(-energy.unsliding, coarse_tolerance, most_coarse_iterations)
+                               .cwiseMax(least_growth)
+                               .cwiseMin(most_growth);
+    const double step = line_search(energy, alpha);
+    if (step == 0.0) return {};
+
+    auto growth = growth_of_loads(loads, grid, energy, step * alpha);
+    Motion* motion = state.motion.data();
+    with_rows(model.physics, [&](auto rows) { apply<decltype(rows)>(network, loads, growth, motion); });
+    if (!pistons.empty()) {
+        growth.erase(growth.begin(), growth.begin() + static_cast<std::ptrdiff_t>(loads.first_of_pistons()));
+        pistons.scale(growth, motion);
+    }
+    return {step, (step * alpha).cwiseAbs().maxCoeff()};
+}
+
+} // namespace talus

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/contact_network.hpp"
+#include "core/model.hpp"
+#include "core/piston_group.hpp"
+#include "core/state.hpp"
+
+namespace talus
+{
+
+/// How a correction went.
+struct ScalingReport {
+    double step = 0.0;    ///< t in (0, 1]; 0: refused, nothing has changed
+    double largest = 0.0; ///< max |t α|: 0.1 is a pressure corrected by a tenth
+};
+
+/// Pressure scaling: the impulses of all contacts are multiplied by a smooth positive field, README (11)
+///
+///   λ ← θ λ,  θ = 1 + t Σ_s α_s φ_s(x_contact),   v ← v + M⁻¹ Gᵀ Δλ
+///
+/// with hats φ_s four diameters wide (hat_grid.hpp). Sweeps alone carry a change of load one contact further in each
+/// sweep; the hats carry it through the whole bed at once, for a network of forces keeps its pattern where its
+/// amplitude changes. Coulomb's cone is kept by any positive factor, and momentum, since v changes along.
+///
+/// α solves A α = −e, A_st = Σ_bodies F_s·M⁻¹F_t with F_s the impulses on a body weighted by φ_s, and e_s = Σ φ_s λ·y
+/// over normal and sticking rows; it is held in [−0.8, 4]; t is the exact minimum along α of the energy ½ v·Mv − λ·q,
+/// at most 1, and where the energy would rise, nothing is done. A solution is left as it is, for λ·y = 0 at each of its
+/// contacts. To be called in every step, after the warm start; every few steps only, it makes forces swing.
+ScalingReport scale_pressure(ContactNetwork& network, PistonGroup& pistons, State& state, const Model& model);
+
+} // namespace talus
