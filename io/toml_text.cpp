@@ -48,6 +48,11 @@ std::string toml_text(const scene::NumberOrName& value)
     return value.name.empty() ? toml_text(value.number) : toml_text(value.name);
 }
 
+std::string toml_text(const scene::SwitchOrName& value)
+{
+    return value.name.empty() ? toml_text(value.on) : toml_text(value.name);
+}
+
 std::string toml_text(const std::vector<std::string>& list)
 {
     std::string text;

@@ -19,6 +19,7 @@ std::string toml_text(std::int64_t number);
 std::string toml_text(const std::string& text);
 std::string toml_text(const Vec3& vector);
 std::string toml_text(const scene::NumberOrName& value);
+std::string toml_text(const scene::SwitchOrName& value);
 std::string toml_text(const std::vector<std::string>& list);
 std::string toml_text(const std::vector<scene::Waypoint>& table);
 std::string toml_text(const std::vector<scene::LoadRow>& load);

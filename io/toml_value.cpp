@@ -130,6 +130,11 @@ std::string expected_value(const Key& key, const scene::NumberOrName&)
     return fmt::format("{}, or {}", expected_numbers("a number", key), enumerate_names(key.allowed.names, "or"));
 }
 
+std::string expected_value(const Key& key, const scene::SwitchOrName&)
+{
+    return fmt::format("true, false or {}", enumerate_names(key.allowed.names, "or"));
+}
+
 std::string expected_value(const Key&, const std::vector<scene::Waypoint>&)
 {
     return "rows of four numbers [time, x, y, z]";
@@ -198,6 +203,17 @@ void read_value(const toml::node& node, const Key& key, scene::NumberOrName& fie
         const auto number = allowed_number(node, key.allowed);
         if (!number) refuse_value(node, key.name, expected);
         field = {*number, ""};
+    }
+}
+
+void read_value(const toml::node& node, const Key& key, scene::SwitchOrName& field)
+{
+    if (const auto* truth = node.as_boolean()) {
+        field = {truth->get(), ""};
+    } else {
+        const auto* text = node.as_string();
+        if (!text || !is_allowed(text->get(), key.allowed)) refuse_name(node, key, expected_value(key, field));
+        field = {false, text->get()};
     }
 }
 

@@ -43,6 +43,7 @@ std::string expected_value(const Key& key, const double& field);
 std::string expected_value(const Key& key, const std::string& field);
 std::string expected_value(const Key& key, const Vec3& field);
 std::string expected_value(const Key& key, const scene::NumberOrName& field);
+std::string expected_value(const Key& key, const scene::SwitchOrName& field);
 std::string expected_value(const Key& key, const std::vector<std::string>& field);
 
 /// Reads one value and checks that it is allowed.
@@ -53,6 +54,7 @@ void read_value(const toml::node& node, const Key& key, double& field);
 void read_value(const toml::node& node, const Key& key, std::string& field);
 void read_value(const toml::node& node, const Key& key, Vec3& field);
 void read_value(const toml::node& node, const Key& key, scene::NumberOrName& field);
+void read_value(const toml::node& node, const Key& key, scene::SwitchOrName& field);
 void read_value(const toml::node& node, const Key& key, std::vector<std::string>& field);
 void read_value(const toml::node& node, const Key& key, std::vector<scene::Waypoint>& field);
 void read_value(const toml::node& node, const Key& key, std::vector<scene::LoadRow>& field);

@@ -9,6 +9,7 @@
 #include "scenarios/build_spheres.hpp"
 #include "scenarios/build_walls.hpp"
 #include "scenarios/build_world.hpp"
+#include "scenarios/scaling_choice.hpp"
 #include "scenarios/scene_checks.hpp"
 #include "scenarios/step_choice.hpp"
 
@@ -85,6 +86,8 @@ std::string explain_model(const Model& model)
     say(p.pistons, "walls of finite mass");
     say(model.periodicity.any(), "periodic axes");
     say(!model.outlets.empty(), "outlets");
+    if (model.solver.stabilisation == Stabilisation::projected)
+        say(model.solver.pressure_scaling, "scaling of pressures");
     return models + (leaves_out.empty() ? "" : "; leaves out " + leaves_out);
 }
 
@@ -108,6 +111,7 @@ Simulation build_scene(const scene::Scene& scene)
     const auto choice = choose_step(scene, simulation);
     model.time_step = choice.step;
     model.solver.push_out_speed = push_out_speed(scene, model);
+    model.solver.pressure_scaling = choose_pressure_scaling(scene, simulation);
     model.speed_limit = 10.0 * choice.fastest_speed + model.min_diameter / choice.step;
     simulation.step_explanation = choice.explanation;
     simulation.model_explanation = explain_model(model);

@@ -15,8 +15,8 @@
 /// its table: name, field, allowed values, unit, meaning. The reader, the resolved scene and the checks all walk these.
 ///
 /// `describe(self, key)` calls key(name, field, Allowed, unit, meaning) for each key in order; it serves a const and a
-/// mutable self. A field is a bool, std::int64_t, double, std::string, Vec3, NumberOrName, a list of strings, another
-/// table with a describe of its own, or a std::vector of such tables.
+/// mutable self. A field is a bool, std::int64_t, double, std::string, Vec3, NumberOrName, SwitchOrName, a list of
+/// strings, another table with a describe of its own, or a std::vector of such tables.
 namespace talus::scene
 {
 
@@ -98,6 +98,12 @@ struct NumberOrName {
     std::string name;
 };
 
+/// true, false, or one of the names that its key allows. The name is empty where true or false was given.
+struct SwitchOrName {
+    bool on = false;
+    std::string name;
+};
+
 struct TimeTable {
     NumberOrName step = {0.0, "auto"};
     double duration = 1.0;
@@ -148,6 +154,7 @@ struct SolverTable {
     std::int64_t max_sweeps = 100;
     double restitution_threshold = 3.0;
     NumberOrName push_out_speed = {0.0, "auto"};
+    SwitchOrName pressure_scaling = {false, "auto"};
 
     static void describe(auto& self, auto&& key)
     {
@@ -166,6 +173,10 @@ struct SolverTable {
         key("push_out_speed", self.push_out_speed, Allowed{.min = 0.0, .names = {"auto"}}, "m/s",
             "largest speed with which overlap is undone; auto: 0.1 sqrt(diameter x gravity), without gravity 0.0008 "
             "diameter / step");
+        key("pressure_scaling", self.pressure_scaling, one_of({"auto"}), "",
+            "carries changes of load through the whole bed before the sweeps; only with projected; auto: with "
+            "projected, "
+            "where the bed is ten grains deep or something rests on grains much lighter");
     }
 };
 
