@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <utility>
 
 namespace talus
 {
@@ -38,30 +40,40 @@ struct LoadsOfSpheres {
             if (loads[k].b >= 0) entry[next[loads[k].b]++] = 2 * k + 1;
         }
     }
+
+    std::span<const std::uint32_t> entries_of(std::size_t sphere) const
+    {
+        return {entry.data() + first[sphere], entry.data() + first[sphere + 1]};
+    }
 };
 
-/// The cells in which the loads of a sphere begin, and whether they reach into a second one along each axis.
+/// The nodes that the loads of a sphere reach: a box of them from one cell on, two or three along each axis.
 struct Footprint {
     LatticeIndex cell = {};
-    std::array<int, 3> nodes = {2, 2, 2}; ///< along each axis
+    std::array<int, 3> nodes = {2, 2, 2};
+
+    static constexpr int shapes = 8;
+    int shape() const { return (nodes[0] - 2) + 2 * (nodes[1] - 2) + 4 * (nodes[2] - 2); }
+    static Footprint of_shape(const LatticeIndex& cell, int shape)
+    {
+        return {cell, {2 + (shape & 1), 2 + (shape >> 1 & 1), 2 + (shape >> 2 & 1)}};
+    }
+
+    int node_count() const { return nodes[0] * nodes[1] * nodes[2]; }
+    int number(int x, int y, int z) const { return (z * nodes[1] + y) * nodes[0] + x; }
+    LatticeIndex offset(int number) const
+    {
+        return {number % nodes[0], number / nodes[0] % nodes[1], number / (nodes[0] * nodes[1])};
+    }
 };
 
-/// The spheres whose footprints begin in one cell, cell after cell.
-struct SpheresOfCells {
-    std::vector<std::size_t> cell;     ///< numbers of the cells in use, ascending
-    std::vector<std::uint32_t> first;  ///< cells + 1
-    std::vector<std::uint32_t> sphere; ///< ascending in each cell
-    std::vector<Footprint> footprint;  ///< by sphere
-};
-
-Footprint footprint_of(
-    const std::uint32_t* begin, const std::uint32_t* end, const std::vector<Load>& loads, const HatGrid& grid)
+Footprint footprint_of(std::span<const std::uint32_t> entries, const std::vector<Load>& loads, const HatGrid& grid)
 {
-    Footprint footprint{loads[*begin / 2].place.cell};
+    Footprint footprint{loads[entries[0] / 2].place.cell};
     for (int d = 0; d < 3; ++d) {
         std::int32_t low = 0, high = 0;
-        for (const auto* e = begin; e != end; ++e) {
-            const auto way = grid.cells_between(d, footprint.cell[d], loads[*e / 2].place.cell[d]);
+        for (const auto entry : entries) {
+            const auto way = grid.cells_between(d, footprint.cell[d], loads[entry / 2].place.cell[d]);
             low = std::min(low, way);
             high = std::max(high, way);
         }
@@ -71,120 +83,141 @@ Footprint footprint_of(
     return footprint;
 }
 
-SpheresOfCells sort_into_cells(const LoadsOfSpheres& of, const std::vector<Load>& loads, const HatGrid& grid)
+/// Spheres that have one footprint.
+struct Group {
+    Footprint footprint;
+    std::uint32_t begin, end; ///< in Groups::sphere
+};
+
+/// The loaded spheres by their footprints, in the order of the cells' numbers.
+struct Groups {
+    std::vector<Group> list;
+    std::vector<std::uint32_t> sphere; ///< ascending in each group
+};
+
+Groups group_spheres(const LoadsOfSpheres& of, const std::vector<Load>& loads, const HatGrid& grid)
 {
     const auto spheres = static_cast<std::int64_t>(of.first.size()) - 1;
-    SpheresOfCells sorted;
-    sorted.footprint.resize(of.first.size() - 1);
-    std::vector<std::size_t> cell_of(of.first.size() - 1);
+    constexpr std::size_t none = ~std::size_t{0};
+    std::vector<std::size_t> key(of.first.size() - 1, none);
 #pragma omp parallel for schedule(static) if (spheres > 1000)
     for (std::int64_t i = 0; i < spheres; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        if (of.first[k] == of.first[k + 1]) continue;
-        sorted.footprint[k] =
-            footprint_of(&of.entry[of.first[k]], &of.entry[of.first[k]] + (of.first[k + 1] - of.first[k]), loads, grid);
-        cell_of[k] = grid.number(sorted.footprint[k].cell);
+        const auto entries = of.entries_of(k);
+        if (entries.empty()) continue;
+        const Footprint footprint = footprint_of(entries, loads, grid);
+        key[k] = grid.number(footprint.cell) * Footprint::shapes + static_cast<std::size_t>(footprint.shape());
     }
-    std::vector<std::uint32_t> count(grid.node_count(), 0);
-    for (std::size_t i = 0; i < cell_of.size(); ++i)
-        if (of.first[i] != of.first[i + 1]) ++count[cell_of[i]];
-    sorted.first = {0};
-    for (std::size_t c = 0; c < count.size(); ++c) {
-        if (count[c] == 0) continue;
-        sorted.cell.push_back(c);
-        sorted.first.push_back(sorted.first.back() + count[c]);
-        count[c] = sorted.first[sorted.first.size() - 2];
+
+    // Counting sort.
+    std::vector<std::uint32_t> next(grid.node_count() * Footprint::shapes, 0);
+    for (const auto k : key)
+        if (k != none) ++next[k];
+    Groups groups;
+    std::uint32_t begin = 0;
+    for (std::size_t k = 0; k < next.size(); ++k) {
+        if (next[k] == 0) continue;
+        const auto cell = grid.node(k / Footprint::shapes);
+        groups.list.push_back(
+            {Footprint::of_shape(cell, static_cast<int>(k % Footprint::shapes)), begin, begin + next[k]});
+        next[k] = std::exchange(begin, begin + next[k]);
     }
-    sorted.sphere.resize(sorted.first.back());
-    for (std::size_t i = 0; i < cell_of.size(); ++i)
-        if (of.first[i] != of.first[i + 1]) sorted.sphere[count[cell_of[i]]++] = static_cast<std::uint32_t>(i);
-    return sorted;
+    groups.sphere.resize(begin);
+    for (std::size_t i = 0; i < key.size(); ++i)
+        if (key[i] != none) groups.sphere[next[key[i]]++] = static_cast<std::uint32_t>(i);
+    return groups;
 }
 
-/// What one cell contributes, by the 27 nodes from its lowest on.
-struct CellSums {
-    Eigen::Matrix<double, span_nodes, span_nodes> curvature; ///< the lower triangle
-    Eigen::Matrix<double, span_nodes, 1> power, unsliding;
-
-    CellSums()
-    {
-        curvature.setZero();
-        power.setZero();
-        unsliding.setZero();
-    }
+/// What a group contributes, by the nodes of its footprint.
+struct GroupSums {
+    std::vector<double> curvature; ///< the lower triangle, row by row
+    std::array<double, span_nodes> power = {}, unsliding = {};
 };
 
-constexpr int local_number(int x, int y, int z)
-{
-    return (z * span + y) * span + x;
-}
+/// F_s on one sphere, by node: linear, then turning and so scaled that its square too counts with 1/m.
+using Forces = std::array<std::array<double, span_nodes>, 6>;
 
-/// Adds a sphere to the sums of the cell in which its footprint begins.
-void add_sphere(CellSums& sums, std::uint32_t sphere, const LoadsOfSpheres& of, const std::vector<Load>& loads,
-    const Footprint& footprint, const HatGrid& grid, double inverse_mass)
+class GroupSum
 {
-    // F_s on the sphere, linear and turning, so scaled that its square is that of M⁻¹ᐟ²F_s times the mass.
-    Eigen::Matrix<double, 6, span_nodes> force;
-    std::array<int, span_nodes> nodes; // those that the footprint has
-    int count = 0;
-    for (int z = 0; z < footprint.nodes[2]; ++z)
-        for (int y = 0; y < footprint.nodes[1]; ++y)
-            for (int x = 0; x < footprint.nodes[0]; ++x) {
-                nodes[count++] = local_number(x, y, z);
-                force.col(nodes[count - 1]).setZero();
-            }
+public:
+    GroupSum(const Group& group, const LoadsOfSpheres& of, const std::vector<Load>& loads, const HatGrid& grid)
+        : footprint_(group.footprint), nodes_(group.footprint.node_count()), of_(of), loads_(loads), grid_(grid)
+    {
+        sums_.curvature.assign(static_cast<std::size_t>(nodes_ * (nodes_ + 1) / 2), 0.0);
+    }
 
-    for (auto k = of.first[sphere]; k < of.first[sphere + 1]; ++k) {
-        const bool is_b = of.entry[k] % 2;
-        const Load& load = loads[of.entry[k] / 2];
-        Eigen::Matrix<double, 6, 1> effect;
-        effect << (is_b ? -load.impulse : load.impulse),
-            std::sqrt(inverse_inertia_factor) * (is_b ? load.turn_b : load.turn_a);
+    void add(std::uint32_t sphere, double inverse_mass)
+    {
+        Forces forces;
+        for (auto& row : forces) std::fill_n(row.begin(), nodes_, 0.0);
+        for (const auto entry : of_.entries_of(sphere)) add_load(forces, loads_[entry / 2], entry % 2);
+        double* sum = sums_.curvature.data();
+        for (int s = 0; s < nodes_; ++s) {
+            std::array<double, 6> scaled;
+            for (std::size_t r = 0; r < 6; ++r) scaled[r] = inverse_mass * forces[r][static_cast<std::size_t>(s)];
+            for (std::size_t t = 0; t <= static_cast<std::size_t>(s); ++t)
+                *sum++ += scaled[0] * forces[0][t] + scaled[1] * forces[1][t] + scaled[2] * forces[2][t] +
+                          scaled[3] * forces[3][t] + scaled[4] * forces[4][t] + scaled[5] * forces[5][t];
+        }
+    }
+
+    GroupSums result() { return std::move(sums_); }
+
+private:
+    const Footprint& footprint_;
+    int nodes_;
+    const LoadsOfSpheres& of_;
+    const std::vector<Load>& loads_;
+    const HatGrid& grid_;
+    GroupSums sums_;
+
+    void add_load(Forces& forces, const Load& load, bool is_b)
+    {
+        const Vec3 push = is_b ? -load.impulse : load.impulse;
+        const Vec3 turn = std::sqrt(inverse_inertia_factor) * (is_b ? load.turn_b : load.turn_a);
         std::array<int, 3> begin;
-        for (int d = 0; d < 3; ++d) begin[d] = grid.cells_between(d, footprint.cell[d], load.place.cell[d]);
+        for (int d = 0; d < 3; ++d) begin[d] = grid_.cells_between(d, footprint_.cell[d], load.place.cell[d]);
         for (int corner = 0; corner < 8; ++corner) {
             const std::array<int, 3> at = {corner & 1, corner >> 1 & 1, corner >> 2 & 1};
             const double hat = load.place.hat(at);
-            const int node = local_number(begin[0] + at[0], begin[1] + at[1], begin[2] + at[2]);
-            force.col(node) += hat * effect;
+            const auto node =
+                static_cast<std::size_t>(footprint_.number(begin[0] + at[0], begin[1] + at[1], begin[2] + at[2]));
+            for (int d = 0; d < 3; ++d) {
+                forces[static_cast<std::size_t>(d)][node] += hat * push[d];
+                forces[static_cast<std::size_t>(d + 3)][node] += hat * turn[d];
+            }
             if (is_b) continue;
-            sums.power[node] += hat * load.power;
-            sums.unsliding[node] += hat * load.unsliding;
+            sums_.power[node] += hat * load.power;
+            sums_.unsliding[node] += hat * load.unsliding;
         }
     }
-    for (int s = 0; s < count; ++s)
-        for (int t = 0; t <= s; ++t)
-            sums.curvature(nodes[s], nodes[t]) += inverse_mass * force.col(nodes[s]).dot(force.col(nodes[t]));
-}
+};
 
-/// The 27 nodes of a cell by their numbers.
-std::array<std::size_t, span_nodes> nodes_of_cell(std::size_t cell, const HatGrid& grid)
+/// The nodes of a footprint by their numbers in the grid.
+std::vector<std::size_t> nodes_of(const Footprint& footprint, const HatGrid& grid)
 {
-    const auto low = grid.node(cell);
-    std::array<std::size_t, span_nodes> nodes;
-    for (int z = 0; z < span; ++z)
-        for (int y = 0; y < span; ++y)
-            for (int x = 0; x < span; ++x)
-                nodes[local_number(x, y, z)] = grid.number({low[0] + x, low[1] + y, low[2] + z});
+    std::vector<std::size_t> nodes;
+    for (int k = 0; k < footprint.node_count(); ++k) {
+        const auto at = footprint.offset(k);
+        const auto& cell = footprint.cell;
+        nodes.push_back(grid.number({cell[0] + at[0], cell[1] + at[1], cell[2] + at[2]}));
+    }
     return nodes;
 }
 
-/// The way from one node of a cell to another, as a place among the 125 that are within reach.
-int place_in_stencil(int from, int to)
+/// Of a node of a footprint among the 125 within reach: differences of codes are places in a stencil.
+int stencil_code(const LatticeIndex& offset)
 {
-    int place = 0;
-    for (int stride = span * span; stride > 0; stride /= span)
-        place = place * reach + to / stride % span - from / stride % span + span - 1;
-    return place;
+    return (offset[2] * reach + offset[1]) * reach + offset[0];
 }
+constexpr int stencil_center = reach_nodes / 2;
 
-/// The rows of the nodes in use, in the order of the nodes' numbers.
-std::vector<std::size_t> number_rows(
-    std::vector<std::int32_t>& row_of, const SpheresOfCells& cells, const HatGrid& grid)
+/// The rows of the nodes in use, in the order of the nodes' numbers. Returns the node of each.
+std::vector<std::size_t> number_rows(std::vector<std::int32_t>& row_of, const Groups& groups, const HatGrid& grid)
 {
     row_of.assign(grid.node_count(), -1);
-    for (const auto cell : cells.cell)
-        for (const auto node : nodes_of_cell(cell, grid)) row_of[node] = 0;
+    for (const auto& group : groups.list)
+        for (const auto node : nodes_of(group.footprint, grid)) row_of[node] = 0;
     std::vector<std::size_t> nodes;
     for (std::size_t node = 0; node < row_of.size(); ++node) {
         if (row_of[node] < 0) continue;
@@ -192,6 +225,27 @@ std::vector<std::size_t> number_rows(
         nodes.push_back(node);
     }
     return nodes;
+}
+
+/// Adds what a group contributes to the stencils of its nodes.
+void add_group(CoarseEnergy& energy, std::vector<double>& stencils, const Footprint& footprint, const GroupSums& sums,
+    const HatGrid& grid)
+{
+    const auto nodes = nodes_of(footprint, grid);
+    std::array<std::int64_t, span_nodes> row, code;
+    for (std::size_t s = 0; s < nodes.size(); ++s) {
+        row[s] = energy.row_of[nodes[s]];
+        code[s] = stencil_code(footprint.offset(static_cast<int>(s)));
+        energy.power[row[s]] += sums.power[s];
+        energy.unsliding[row[s]] += sums.unsliding[s];
+    }
+    const double* sum = sums.curvature.data();
+    for (std::size_t s = 0; s < nodes.size(); ++s)
+        for (std::size_t t = 0; t <= s; ++t, ++sum) {
+            stencils[static_cast<std::size_t>(row[s] * reach_nodes + stencil_center + code[t] - code[s])] += *sum;
+            if (t < s)
+                stencils[static_cast<std::size_t>(row[t] * reach_nodes + stencil_center + code[s] - code[t])] += *sum;
+        }
 }
 
 /// A row for each node, with the entries that are not zero.
@@ -231,36 +285,23 @@ void add_pistons(CoarseEnergy& energy, const Loads& loads, const HatGrid& grid, 
 CoarseEnergy coarse_energy(const Loads& loads, const HatGrid& grid, const State& state, const Model& model)
 {
     const LoadsOfSpheres of(loads.list, state.count());
-    const SpheresOfCells cells = sort_into_cells(of, loads.list, grid);
-    const auto cell_count = static_cast<std::int64_t>(cells.cell.size());
-
-    std::vector<CellSums> sums(cells.cell.size());
-#pragma omp parallel for schedule(dynamic) if (cell_count > 8)
-    for (std::int64_t k = 0; k < cell_count; ++k) {
-        const auto c = static_cast<std::size_t>(k);
-        for (auto i = cells.first[c]; i < cells.first[c + 1]; ++i) {
-            const auto sphere = cells.sphere[i];
-            add_sphere(
-                sums[c], sphere, of, loads.list, cells.footprint[sphere], grid, state.motion[sphere].inverse_mass);
-        }
+    const Groups groups = group_spheres(of, loads.list, grid);
+    const auto group_count = static_cast<std::int64_t>(groups.list.size());
+    std::vector<GroupSums> sums(groups.list.size());
+#pragma omp parallel for schedule(dynamic) if (group_count > 16)
+    for (std::int64_t k = 0; k < group_count; ++k) {
+        const auto g = static_cast<std::size_t>(k);
+        GroupSum sum(groups.list[g], of, loads.list, grid);
+        for (auto i = groups.list[g].begin; i < groups.list[g].end; ++i)
+            sum.add(groups.sphere[i], state.motion[groups.sphere[i]].inverse_mass);
+        sums[g] = sum.result();
     }
 
     CoarseEnergy energy;
-    const auto nodes = number_rows(energy.row_of, cells, grid);
+    const auto nodes = number_rows(energy.row_of, groups, grid);
     energy.power = energy.unsliding = VectorXd::Zero(static_cast<Index>(nodes.size()));
     std::vector<double> stencils(nodes.size() * reach_nodes, 0.0);
-    for (std::size_t c = 0; c < sums.size(); ++c) {
-        const auto of_cell = nodes_of_cell(cells.cell[c], grid);
-        const auto add = [&](int s, int t) {
-            stencils[static_cast<std::size_t>(energy.row_of[of_cell[s]] * reach_nodes + place_in_stencil(s, t))] +=
-                sums[c].curvature(std::max(s, t), std::min(s, t));
-        };
-        for (int s = 0; s < span_nodes; ++s) {
-            energy.power[energy.row_of[of_cell[s]]] += sums[c].power[s];
-            energy.unsliding[energy.row_of[of_cell[s]]] += sums[c].unsliding[s];
-            for (int t = 0; t < span_nodes; ++t) add(s, t);
-        }
-    }
+    for (std::size_t g = 0; g < sums.size(); ++g) add_group(energy, stencils, groups.list[g].footprint, sums[g], grid);
     add_rows(energy.curvature, nodes, stencils, energy.row_of, grid);
     add_pistons(energy, loads, grid, state, model);
     return energy;
