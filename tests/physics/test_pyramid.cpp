@@ -1,67 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/support/world.hpp"
+#include "tests/support/pyramid.hpp"
 
-#include <cmath>
-#include <numbers>
-
-// A sphere on two (in a plane) or three others that stand on a floor with their centres s apart. No torque on a base
-// sphere asks for equal friction above and below, which gives with the angle θ of the upper contacts from the vertical
-//
-//   N = m g / n,  T = N tan(θ/2),  floor N' = (1 + 1/n) m g,  T' = T        for n = 2 or 3 base spheres, any s > 2 r,
-//
-// so it stands if and only if μ ≥ tan(θ/2) above and μ ≥ tan(θ/2)/(n + 1) at the floor.
+#include <algorithm>
 
 namespace talus::test
 {
 namespace
 {
-
-constexpr double spacing = 2.1 * standard_radius; ///< s: bases that touched would add a self-stress of any size
-constexpr double automatic_step = 0.008 * 0.0319; ///< h = 0.008 √(d/g)
-constexpr double ample = 2.0;                     ///< friction that holds anything here
-
-/// Radius of the circle on which n base centres stand s apart.
-double base_circle(int n)
-{
-    return spacing / (2.0 * std::sin(std::numbers::pi / n));
-}
-
-double upper_angle(int n)
-{
-    return std::asin(base_circle(n) / (2.0 * standard_radius));
-}
-
-double critical_friction_above(int n)
-{
-    return std::tan(0.5 * upper_angle(n));
-}
-double critical_friction_at_floor(int n)
-{
-    return std::tan(0.5 * upper_angle(n)) / (n + 1);
-}
-
-/// From the middle to base sphere k. Two lie exactly in the plane y = 0: out of it their pyramid is unstable.
-Vec3 base_direction(int n, int k)
-{
-    if (n == 2) return k == 0 ? Vec3::UnitX().eval() : Vec3(-Vec3::UnitX());
-    const double angle = 2.0 * std::numbers::pi * k / n;
-    return {std::cos(angle), std::sin(angle), 0};
-}
-
-/// Base spheres have ids 0 … n−1, the top one n.
-World pyramid(int n, double friction_above, double friction_at_floor, const SolverSettings& solver)
-{
-    ContactLaw above;
-    ContactLaw floor;
-    above.friction = friction_above;
-    floor.friction = friction_at_floor;
-    World world = make_world(above, floor, solver, automatic_step);
-    world.add_plane(Vec3::Zero(), Vec3::UnitZ());
-    for (int k = 0; k < n; ++k)
-        world.add_sphere(base_circle(n) * base_direction(n, k) + standard_radius * Vec3::UnitZ());
-    world.add_sphere((2.0 * standard_radius * std::cos(upper_angle(n)) + standard_radius) * Vec3::UnitZ());
-    return world;
-}
 
 double fastest_sphere(const World& world)
 {
@@ -96,12 +41,12 @@ TEST_CASE("a pyramid stands just above its critical friction and moves just belo
     const int n = GENERATE(2, 3);
     const bool at_floor = GENERATE(false, true);
     const auto first_speed = [&](double share) {
-        const double above = at_floor ? ample : share * critical_friction_above(n);
-        const double floor = at_floor ? share * critical_friction_at_floor(n) : ample;
+        const double above = at_floor ? ample_friction : share * critical_friction_above(n);
+        const double floor = at_floor ? share * critical_friction_at_floor(n) : ample_friction;
         World world = pyramid(n, above, floor, rigid_settings());
         world.step();
         CHECK(world.report.converged);
-        return fastest_sphere(world) / (standard_gravity * automatic_step);
+        return fastest_sphere(world) / (standard_gravity * automatic_step());
     };
     CHECK(first_speed(1.001) < 1e-9);
     const double below = first_speed(0.999);
@@ -127,8 +72,8 @@ TEST_CASE("with production settings a pyramid's critical friction is right to 1 
     const bool at_floor = GENERATE(false, true);
     const auto stabilisation = GENERATE(Stabilisation::projected, Stabilisation::matched);
     const auto sinking = [&](double share) {
-        const double above = at_floor ? ample : share * critical_friction_above(n);
-        const double floor = at_floor ? share * critical_friction_at_floor(n) : ample;
+        const double above = at_floor ? ample_friction : share * critical_friction_above(n);
+        const double floor = at_floor ? share * critical_friction_at_floor(n) : ample_friction;
         World world = pyramid(n, above, floor, production_settings(stabilisation));
         const double top = world.position(n).z();
         world.step(6000);

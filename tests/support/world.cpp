@@ -6,6 +6,7 @@
 #include "tests/support/contacts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace talus::test
@@ -138,6 +139,16 @@ SolverSettings production_settings(Stabilisation stabilisation)
     return solver;
 }
 
+double automatic_step(double diameter)
+{
+    return 0.008 * std::sqrt(diameter / standard_gravity);
+}
+
+double automatic_push_out_speed(double diameter)
+{
+    return 0.1 * std::sqrt(diameter * standard_gravity);
+}
+
 World make_world(const ContactLaw& law, const SolverSettings& solver, double time_step)
 {
     return make_world(law, law, solver, time_step);
@@ -159,6 +170,18 @@ World make_world(
     model.physics.spin = model.physics.friction;
     model.physics.restitution = any_law(model.materials, &ContactLaw::restitution);
     return world;
+}
+
+World production_world(const ContactLaw& between_spheres, const ContactLaw& at_walls, Stabilisation stabilisation)
+{
+    SolverSettings solver = production_settings(stabilisation);
+    solver.push_out_speed = automatic_push_out_speed();
+    return make_world(between_spheres, at_walls, solver, automatic_step());
+}
+
+World production_world(const ContactLaw& law, Stabilisation stabilisation)
+{
+    return production_world(law, law, stabilisation);
 }
 
 World sphere_on_plane(const ContactLaw& law, const SolverSettings& solver, double time_step, const Vec3& velocity,

@@ -81,10 +81,21 @@ SolverSettings matched_settings(double tolerance = 1e-13, int max_sweeps = 20000
 /// What a run of this law gets that asks for nothing.
 SolverSettings production_settings(Stabilisation stabilisation);
 
+/// h = 0.008 √(d/g), what a scene gets whose smallest spheres have this diameter.
+double automatic_step(double diameter = 2 * standard_radius);
+
+/// 0.1 √(d g), likewise, for spheres of this mean diameter [m/s].
+double automatic_push_out_speed(double diameter = 2 * standard_radius);
+
 /// An empty world with downward gravity in which spheres meet by one law and walls by the same or another.
 World make_world(const ContactLaw& law, const SolverSettings& solver, double time_step);
 World make_world(
     const ContactLaw& between_spheres, const ContactLaw& at_walls, const SolverSettings& solver, double time_step);
+
+/// An empty world like that of a scene that asks for nothing and has spheres of the standard size.
+World production_world(const ContactLaw& between_spheres, const ContactLaw& at_walls,
+    Stabilisation stabilisation = Stabilisation::matched);
+World production_world(const ContactLaw& law = {}, Stabilisation stabilisation = Stabilisation::matched);
 
 /// A sphere (id 0) that touches the floor z = 0 without overlap.
 World sphere_on_plane(const ContactLaw& law, const SolverSettings& solver, double time_step,
