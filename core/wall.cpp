@@ -17,6 +17,9 @@ namespace
 /// defined.
 constexpr double sliver = 1e-10;
 
+/// A point that lies outside of a triangle by less than this share of its height is over it.
+constexpr double same_place = 1e-6;
+
 /// The result for a thin wall: the normal points from the wall to x, whichever side that is.
 WallPoint thin_wall_point(const Vec3& nearest, const Vec3& x, const Vec3& normal_if_on_wall)
 {
@@ -108,7 +111,13 @@ WallPoint nearest(const Mesh& mesh, std::size_t patch, const Vec3& x)
     const auto& t = mesh.triangles[patch];
     const auto vertex = [&](std::size_t k) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
     const Vec3 normal = (vertex(1) - vertex(0)).cross(vertex(2) - vertex(0)).normalized();
-    return thin_wall_point(nearest_on_triangle(vertex(0), vertex(1), vertex(2), x), x, normal);
+    const Vec3 nearest = nearest_on_triangle(vertex(0), vertex(1), vertex(2), x);
+    // Over an edge that two triangles share, rounding decides which is nearer; the other's point must not tilt the
+    // normal where they are flat: a sphere would roll off.
+    const double height = (x - vertex(0)).dot(normal);
+    const Vec3 foot = x - height * normal;
+    const bool over_it = (foot - nearest).squaredNorm() <= same_place * same_place * height * height;
+    return thin_wall_point(over_it ? foot : nearest, x, normal);
 }
 
 WallPoint nearest(const Grains& grains, std::size_t patch, const Vec3& x)
