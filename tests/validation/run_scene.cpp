@@ -15,9 +15,11 @@ namespace talus::test
 Simulation open_scene(const std::string& name, const std::vector<std::string>& overrides)
 {
     const std::filesystem::path root = TALUS_SOURCE_DIR;
-    auto file = root / "tests/validation/scenes" / (name + ".toml");
-    if (!std::filesystem::exists(file)) file = root / "scenarios" / (name + ".toml");
-    return build_scene(read_scene(file, overrides).scene);
+    for (const auto* folder : {"tests/hard/scenes", "tests/validation/scenes", "scenarios"}) {
+        const auto file = root / folder / (name + ".toml");
+        if (std::filesystem::exists(file)) return build_scene(read_scene(file, overrides).scene);
+    }
+    throw std::logic_error("no scene " + name);
 }
 
 void run_until(Simulation& simulation, double time)

@@ -9,7 +9,8 @@
 namespace talus::test
 {
 
-/// The scene of this name in tests/validation/scenes, or else in scenarios/, with overrides as for `talus run --set`.
+/// The scene of this name in tests/hard/scenes, tests/validation/scenes or scenarios/, with overrides as for `talus run
+/// --set`.
 Simulation open_scene(const std::string& name, const std::vector<std::string>& overrides = {});
 
 /// Runs until the given time, sampling the sensors every 5 ms. Requires that nothing escapes.
