@@ -23,11 +23,11 @@ double countable_edge(double edge, const Vec3& extent)
 class TileAxes
 {
 public:
-    TileAxes(const Box& around, double edge, const Periodicity& periodicity)
+    TileAxes(const Box& around, double edge, const Periodicity& periodicity, const Vec3& corner)
     {
         const double common = countable_edge(edge, around.extent());
         for (int d = 0; d < 3; ++d) {
-            origin_[d] = 0.0;
+            origin_[d] = corner[d];
             edge_[d] = common;
             if (periodicity.along(d)) {
                 const auto pairs = static_cast<std::int64_t>(0.5 * periodicity.length[d] / common);
@@ -57,13 +57,13 @@ private:
 
 } // namespace
 
-Tiles make_tiles(const std::vector<Vec3>& position, double edge, const Periodicity& periodicity)
+Tiles make_tiles(const std::vector<Vec3>& position, double edge, const Periodicity& periodicity, const Vec3& corner)
 {
     Tiles tiles;
     if (position.empty()) return tiles;
     Box around;
     for (const auto& x : position) around.extend(x);
-    const TileAxes axes(around, edge, periodicity);
+    const TileAxes axes(around, edge, periodicity, corner);
 
     // Key: colour first, then the tile's place, so that sorting lines up tiles by colour.
     std::vector<std::pair<std::uint64_t, std::int32_t>> keys(position.size());

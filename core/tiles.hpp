@@ -31,7 +31,8 @@ struct Tiles {
 
 /// Sorts the spheres at these places into tiles; empty tiles are left out. Along a periodic axis the cell is divided
 /// into an even number of equal tiles at least as long as `edge`, so that neighbours across its border differ in
-/// parity, or is one tile.
-Tiles make_tiles(const std::vector<Vec3>& position, double edge, const Periodicity& periodicity = {});
+/// parity, or is one tile. Along the others a tile begins at `corner`.
+Tiles make_tiles(const std::vector<Vec3>& position, double edge, const Periodicity& periodicity = {},
+    const Vec3& corner = Vec3::Zero());
 
 } // namespace talus
