@@ -25,6 +25,7 @@ std::size_t add_sphere(State& state, const Vec3& position, double radius, double
     const double mass = density * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
     state.inserted_mass += mass;
     state.position.push_back(position);
+    state.position_rest.push_back(Vec3::Zero());
     state.motion.push_back({velocity, 1.0 / mass, radius * angular_velocity, radius});
     state.material.push_back(material);
     state.id.push_back(state.next_id++);
@@ -36,6 +37,7 @@ std::size_t add_sphere(State& state, const Vec3& position, double radius, double
 void renumber_spheres(State& state, const std::vector<std::int32_t>& new_index, std::size_t new_count)
 {
     renumber(state.position, new_index, new_count);
+    renumber(state.position_rest, new_index, new_count);
     renumber(state.motion, new_index, new_count);
     renumber(state.material, new_index, new_count);
     renumber(state.id, new_index, new_count);

@@ -32,6 +32,7 @@ inline constexpr double inverse_inertia_factor = 2.5;
 /// leave, are renumbered along a curve); `id` never does.
 struct State {
     std::vector<Vec3> position;          ///< x, centres [m]
+    std::vector<Vec3> position_rest;     ///< what rounding has kept from x so far, far less than its last digit [m]
     std::vector<Motion> motion;          ///< v, a, 1/m, r
     std::vector<std::int32_t> material;  ///< index into Model::materials
     std::vector<std::int64_t> id;        ///< what the user sees: 0, 1, … in order of insertion
@@ -52,7 +53,8 @@ struct State {
 
     void persist(Archive& archive)
     {
-        archive(position, motion, material, id, last_wall, leaving, pistons, time, steps, next_id, inserted_mass);
+        archive(position, position_rest, motion, material, id, last_wall, leaving, pistons, time, steps, next_id,
+            inserted_mass);
     }
 };
 
