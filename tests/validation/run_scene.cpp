@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
@@ -22,18 +23,20 @@ Simulation open_scene(const std::string& name, const std::vector<std::string>& o
     throw std::logic_error("no scene " + name);
 }
 
-void run_until(Simulation& simulation, double time)
+double run_until(Simulation& simulation, double time)
 {
     constexpr double sample_interval = 0.005;
-    double next_sample = simulation.state.time;
+    double next_sample = simulation.state.time, fastest = 0.0;
     while (simulation.state.time < time) {
         const auto report = step(simulation);
         REQUIRE(report.incidents.empty());
+        fastest = std::max(fastest, report.fastest_speed);
         for (auto& sensor : simulation.sensors) sensor->watch(snapshot(simulation, report));
         if (simulation.state.time < next_sample) continue;
         for (auto& sensor : simulation.sensors) sensor->sample(snapshot(simulation, report));
         next_sample += sample_interval;
     }
+    return fastest;
 }
 
 Measurement result(const Simulation& simulation, const std::string& sensor, const std::string& quantity)

@@ -14,7 +14,8 @@ namespace talus::test
 Simulation open_scene(const std::string& name, const std::vector<std::string>& overrides = {});
 
 /// Runs until the given time, sampling the sensors every 5 ms. Requires that nothing escapes.
-void run_until(Simulation& simulation, double time);
+/// @return the fastest speed that a sphere had [m/s]
+double run_until(Simulation& simulation, double time);
 
 /// A result of a sensor by the sensor's and the quantity's name.
 Measurement result(const Simulation& simulation, const std::string& sensor, const std::string& quantity);
