@@ -10,6 +10,8 @@ void RunStatistics::add(const StepReport& report, const Simulation& simulation)
 {
     residuals_.add(report.residual);
     if (!report.converged) ++steps_at_cap_;
+    if (report.sub_steps > 1) ++split_steps_;
+    most_sub_steps_ = std::max(most_sub_steps_, report.sub_steps);
 
     overlap_sum_ += report.mean_overlap * static_cast<double>(report.overlapping);
     overlap_count_ += static_cast<double>(report.overlapping);
@@ -33,6 +35,8 @@ ErrorSummary RunStatistics::error(const Model& model) const
     ErrorSummary error;
     error.tolerance = model.solver.tolerance;
     error.steps_at_cap = steps_at_cap_;
+    error.split_steps = split_steps_;
+    error.most_sub_steps = most_sub_steps_;
     error.mean_overlap = overlap_count_ > 0.0 ? overlap_sum_ / overlap_count_ / model.mean_diameter : 0.0;
     error.worst_overlap = worst_overlap_ / model.mean_diameter;
     error.worst_overlap_time = worst_overlap_time_;

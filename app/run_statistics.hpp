@@ -23,7 +23,7 @@ public:
     void persist(Archive& archive)
     {
         archive(residuals_, steps_at_cap_, overlap_sum_, overlap_count_, worst_overlap_, worst_overlap_time_,
-            long_moves_, cone_violation_, contact_updates_, energy_, inserted_, left_);
+            long_moves_, split_steps_, most_sub_steps_, cone_violation_, contact_updates_, energy_, inserted_, left_);
     }
 
 private:
@@ -32,6 +32,8 @@ private:
     double overlap_sum_ = 0.0, overlap_count_ = 0.0; ///< over all overlapping contacts of all steps
     double worst_overlap_ = 0.0, worst_overlap_time_ = 0.0;
     std::int64_t long_moves_ = 0;
+    std::int64_t split_steps_ = 0;
+    int most_sub_steps_ = 1;
     double cone_violation_ = 0.0;
     double contact_updates_ = 0.0;
     EnergyBalance energy_;

@@ -21,7 +21,8 @@ struct StepConstants {
 
     explicit StepConstants(const Model& model)
         : h(model.time_step), reach(open_contact_reach * model.min_diameter),
-          threshold_speed(model.solver.restitution_threshold * model.gravity.norm() * model.time_step)
+          threshold_speed(
+              model.solver.restitution_threshold * model.gravity.norm() * model.time_step * model.solver.sub_steps)
     {
     }
 };
@@ -92,7 +93,7 @@ public:
         if (!arrays_.wall.empty()) arrays_.wall[next_] = touch.wall;
         if (!arrays_.rolling.empty()) arrays_.rolling[next_] = rolling_row(touch, law, kind, warm.dot(touch.normal));
         ++next_;
-        survey(touch.gap, normal.compliance);
+        survey(touch.gap, normal);
     }
 
     void finish(std::size_t tile) { arrays_.count[tile] = static_cast<std::uint32_t>(next_ - first_); }
@@ -111,7 +112,7 @@ private:
         return row;
     }
 
-    void survey(double gap, double compliance)
+    void survey(double gap, const NormalLaw& law)
     {
         ++survey_.contacts;
         if (gap >= 0.0) return;
@@ -119,7 +120,9 @@ private:
         survey_.worst_overlap = std::max(survey_.worst_overlap, -gap);
         survey_.overlap_sum -= gap;
         // k = 4 Υ / (Σ_n h²), the stiffness that the compliance stands for.
-        if (compliance > 0.0) survey_.contact_energy += 2.0 * upsilon / (compliance * step_.h * step_.h) * gap * gap;
+        if (law.compliance > 0.0)
+            survey_.contact_energy +=
+                2.0 * upsilon / (law.compliance * step_.h * step_.h) * gap * gap * law.feedback_share;
     }
 
     ContactArrays& arrays_;

@@ -17,6 +17,12 @@ void CarriedImpulses::clear(std::size_t slot)
     touched[slot] = 0;
 }
 
+void CarriedImpulses::scale(double factor)
+{
+    for (Vec3& p : impulse) p *= factor;
+    for (Vec3& p : rolling_impulse) p *= factor;
+}
+
 void CarriedImpulses::copy(std::size_t slot, const CarriedImpulses& from, std::size_t from_slot, bool opposite)
 {
     const double sign = opposite ? -1.0 : 1.0;
@@ -49,7 +55,7 @@ void ContactNetwork::persist(Archive& archive)
     archive(listed_box, listed_pose, listed_around, tiles, pairs, pairs_of_tile, pair_of_sphere, first_pair, pair_count,
         pair_carried);
     archive(wall_pairs, wall_pairs_of_tile, first_wall_pair, wall_pair_count, wall_slots_of_tile, patches, wall_carried,
-        wall_carried_normal);
+        wall_carried_normal, impulse_step);
 }
 
 } // namespace talus

@@ -22,6 +22,7 @@ struct CarriedImpulses {
     CarriedImpulses(std::size_t slots, bool with_rolling);
     void persist(Archive& archive) { archive(impulse, rolling_impulse, touched); }
     void clear(std::size_t slot);
+    void scale(double factor); ///< all of them
     void copy(std::size_t slot, const CarriedImpulses& from, std::size_t from_slot, bool opposite = false);
 };
 
@@ -73,6 +74,8 @@ struct ContactNetwork {
     std::vector<std::int32_t> patches;     ///< by slot
     CarriedImpulses wall_carried;          ///< by slot
     std::vector<Vec3> wall_carried_normal; ///< by slot: the normal by which the next step knows a wall contact again
+    double impulse_step =
+        0.0; ///< how long the impulses, carried and of the contacts below, have acted [s]; 0: none yet
 
     ContactArrays sphere_contacts; ///< tile t from pairs_of_tile[t] on
     ContactArrays wall_contacts;   ///< tile t from wall_slots_of_tile[t] on, without those with pistons …

@@ -26,6 +26,7 @@ StateSurvey survey_block(const State& state, const Model& model, std::size_t beg
 {
     StateSurvey survey;
     const Vec3 along = model.periodicity.part_along(model.gravity); // there is no height on these axes
+    const double whole_step = model.time_step * model.solver.sub_steps;
     for (std::size_t i = begin; i < end; ++i) {
         const auto& m = state.motion[i];
         const double speed = m.velocity.norm();
@@ -33,7 +34,7 @@ StateSurvey survey_block(const State& state, const Model& model, std::size_t beg
         survey.potential_energy -= (model.gravity - along).dot(state.position[i]) / m.inverse_mass;
         survey.gravity_work += model.time_step * along.dot(m.velocity) / m.inverse_mass;
         survey.fastest_speed = std::max(survey.fastest_speed, speed);
-        if (speed * model.time_step > 0.2 * m.radius) ++survey.long_moves;
+        if (speed * whole_step > 0.2 * m.radius) ++survey.long_moves;
         if (const auto kind = incident_of(state, model, i))
             survey.incidents.push_back({*kind, state.id[i], state.position[i], speed, state.last_wall[i]});
     }
@@ -59,7 +60,8 @@ void survey_piston(const Piston& piston, const PistonState& state, const Model& 
     survey.kinetic_energy += kinetic_energy(piston, state);
     survey.potential_energy -= piston.mass * model.gravity.dot(center);
     survey.fastest_speed = std::max(survey.fastest_speed, speed);
-    if (speed * model.time_step > longest_piston_move * model.min_diameter) ++survey.long_moves;
+    if (speed * model.time_step * model.solver.sub_steps > longest_piston_move * model.min_diameter)
+        ++survey.long_moves;
     if (const auto kind = incident_of(state, center, model))
         survey.incidents.push_back({*kind, -1, center, speed, static_cast<std::int32_t>(piston.wall)});
 }

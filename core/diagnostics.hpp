@@ -36,7 +36,7 @@ struct StateSurvey {
     double potential_energy = 0.0;   ///< of the axes that are not periodic [J]
     double gravity_work = 0.0;       ///< of gravity along periodic axes at the present velocities, in a step [J]
     double fastest_speed = 0.0;      ///< [m/s]
-    std::size_t long_moves = 0;      ///< spheres that move more than 0.1 d in a step at their speed, and pistons
+    std::size_t long_moves = 0;      ///< spheres that move more than 0.1 d in a whole step at their speed, and pistons
     std::vector<Incident> incidents; ///< in storage order, pistons last
 };
 

@@ -24,6 +24,10 @@ struct SolverSettings {
     double restitution_threshold = 3.0; ///< impacts slower than this times gravity × step do not rebound
     double push_out_speed = infinity;   ///< cap on the speed with which overlap is undone [m/s]
     bool pressure_scaling = false;      ///< before the sweeps, see pressure_scaling/; with `projected` only
+
+    // Where a step is split (sub_steps.hpp) and the model's time step is that of a sub-step:
+    int sub_steps = 1;            ///< of the whole step, this being one
+    double shallow_overlap = 0.0; ///< up to this a contact is no stiffer than in a whole step [m]
 };
 
 /// What the scene needs; the rest does not exist in the step.

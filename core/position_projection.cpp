@@ -29,6 +29,8 @@ void separate_from_wall(const Contact& c, double wall_level, State& state, doubl
     if (overlap > 0.0) state.position[c.a] += share * overlap * c.normal;
 }
 
+constexpr double deepest_in_wall = 0.25; ///< smallest diameters
+
 /// Likewise; the level goes with the piston, which has come some way since.
 /// @param began how its wall stood when the step began
 void separate_from_piston(
@@ -68,6 +70,30 @@ void project_positions(
         const Contact& c = pistons.contact[k];
         const PlacedWall& wall = walls[c.b];
         separate_from_piston(c, pistons.geometry[k].wall_level, model.pistons[wall.wall().piston], wall, state, share);
+    }
+}
+
+void hold_at_walls(
+    const ContactNetwork& network, State& state, const Model& model, const std::vector<PlacedWall>& walls)
+{
+    const double deepest = deepest_in_wall * model.min_diameter;
+    const auto hold = [&](const Contact& c, double wall_level) {
+        const double overlap = wall_level - c.normal.dot(state.position[c.a]);
+        if (overlap > deepest) state.position[c.a] += (overlap - deepest) * c.normal;
+    };
+    const auto& at_walls = network.wall_contacts;
+    for (std::size_t tile = 0; tile < network.tiles.count(); ++tile) {
+        const auto first = network.wall_slots_of_tile[tile];
+        for (auto k = first; k < first + at_walls.count[tile]; ++k)
+            hold(at_walls.contact[k], at_walls.geometry[k].wall_level);
+    }
+    const auto& pistons = network.piston_contacts;
+    for (std::size_t k = 0; model.physics.pistons && k < pistons.count[0]; ++k) {
+        const Contact& c = pistons.contact[k];
+        const PlacedWall& began = walls[c.b];
+        const Piston& piston = model.pistons[began.wall().piston];
+        const Vec3 way = state.pistons[began.wall().piston].pose(piston.center) - began.pose()(piston.center);
+        hold(c, pistons.geometry[k].wall_level + c.normal.dot(way));
     }
 }
 

@@ -96,7 +96,7 @@ Tensor contact_virial(const Region& region, const Snapshot& now)
     for_each_loaded_wall_contact(now.contacts, [&](const Contact& c, const ContactGeometry& g) {
         virial += inside(c.a, -(state.radius(c.a) + g.gap) * c.normal) * c.impulse * c.normal.transpose();
     });
-    return virial / now.model.time_step;
+    return virial / now.contacts.impulse_step;
 }
 
 } // namespace

@@ -22,8 +22,9 @@ inline constexpr double projected_share = 4.0 * upsilon;
 
 /// The normal law u_n + Σ_n λ_n ≥ q_n of one contact.
 struct NormalLaw {
-    double target;     ///< q_n [m/s]
-    double compliance; ///< Σ_n [1/kg]
+    double target;               ///< q_n [m/s]
+    double compliance;           ///< Σ_n [1/kg]
+    double feedback_share = 1.0; ///< of the feedback on overlap, and so of the stiffness 4Υ/(Σ_n h²), that it takes
 };
 
 /// What the law of a contact depends on.
@@ -42,14 +43,29 @@ inline double matched_compliance(const ContactLaw& law, double inverse_mass_sum,
     return std::max(4.0 * upsilon / (law.stiffness * h * h), sigma_per_sweep / min_sweeps * inverse_mass_sum);
 }
 
+/// What a sub-step takes of the feedback on overlap. The stiffness that sweeps can carry goes with 1/h², so with all of
+/// it a bed at rest would rise when its step is split. Shallow overlaps keep the stiffness of the whole step, and those
+/// five times as deep have that of the sub-step.
+inline double feedback_share(const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, double h)
+{
+    const auto compliance_in = [&](double step) {
+        return matched_compliance(law, event.inverse_mass_sum, step, solver.min_sweeps);
+    };
+    const double as_stiff =
+        compliance_in(h) / (compliance_in(solver.sub_steps * h) * solver.sub_steps * solver.sub_steps);
+    const double deep = std::clamp((-event.gap / solver.shallow_overlap - 1.0) / 4.0, 0.0, 1.0);
+    return as_stiff + deep * (1.0 - as_stiff);
+}
+
 /// `matched` (the default): the note's own step, eq. (2), with a compliance that the sweeps can carry. Of the feedback
 /// on overlap, what exceeds the need of the carried impulse is capped, so that a deep overlap does not become a shot.
 inline NormalLaw matched_law(const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, double h)
 {
     const double compliance = matched_compliance(law, event.inverse_mass_sum, h, solver.min_sweeps);
+    const double share = solver.sub_steps == 1 ? 1.0 : feedback_share(event, law, solver, h);
     const double held = compliance * event.carried_normal;
-    const double push_out = std::min(-4.0 / h * upsilon * event.gap - held, solver.push_out_speed);
-    return {held + push_out + upsilon * event.u_n, compliance};
+    const double push_out = std::min(-4.0 / h * upsilon * share * event.gap - held, solver.push_out_speed);
+    return {held + push_out + upsilon * event.u_n, compliance, share};
 }
 
 /// `projected`: rigid, u_n ≥ 0; overlap is removed by moving the spheres (position_projection.hpp).

@@ -10,6 +10,10 @@
 #include "core/pressure_scaling/pressure_scaling.hpp"
 #include "core/stabilisation.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
 namespace talus
 {
 namespace
@@ -105,6 +109,30 @@ StepReport make_report(const BegunStep& begun, const ContactNetwork& contacts, c
         .incidents = std::move(bodies.incidents)};
 }
 
+/// Impulses go with the length of the step: those of a step of another length are scaled. Returns by how much.
+double scale_impulses(State& state, ContactNetwork& contacts, double h)
+{
+    const double scale = contacts.impulse_step > 0.0 ? h / contacts.impulse_step : 1.0;
+    contacts.impulse_step = h;
+    if (scale == 1.0) return scale;
+    contacts.pair_carried.scale(scale);
+    contacts.wall_carried.scale(scale);
+    for (PistonState& piston : state.pistons) piston.guide_impulse *= scale;
+    return scale;
+}
+
+using MovingBodies = std::tuple<std::vector<Motion>, std::vector<PistonState>>;
+
+/// The speed of the fastest sphere or piston; not asked for where nothing is too fast.
+double fastest_of(const State& state, double too_fast)
+{
+    if (too_fast == infinity) return 0.0;
+    double fastest = 0.0;
+    for (const Motion& m : state.motion) fastest = std::max(fastest, m.velocity.squaredNorm());
+    for (const PistonState& piston : state.pistons) fastest = std::max(fastest, piston.velocity.squaredNorm());
+    return std::sqrt(fastest);
+}
+
 } // namespace
 
 BegunStep begin_step(State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer)
@@ -113,6 +141,7 @@ BegunStep begin_step(State& state, ContactNetwork& contacts, const Model& model,
 
     // Which spheres and walls can touch during this step?
     if (observer) observer(Phase::search);
+    begun.impulse_scale = scale_impulses(state, contacts, model.time_step);
     renumber_along_curve(state, contacts, model);
     begun.walls = place_walls(model, state, model.time_step);
     begun.searched = update_candidates(contacts, state, model, begun.walls);
@@ -125,6 +154,12 @@ BegunStep begin_step(State& state, ContactNetwork& contacts, const Model& model,
 
 StepReport advance(State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer)
 {
+    return *advance_unless_faster(infinity, state, contacts, model, observer);
+}
+
+std::optional<StepReport> advance_unless_faster(
+    double fastest, State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer)
+{
     const double h = model.time_step;
     const auto enter = [&](Phase phase) {
         if (observer) observer(phase);
@@ -133,12 +168,15 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
     // Who touches whom, and under which law?
     const BegunStep begun = begin_step(state, contacts, model, observer);
     PistonGroup pistons(contacts, state, model);
+    const MovingBodies before = fastest < infinity ? MovingBodies{state.motion, state.pistons} : MovingBodies{};
 
     // The velocity if nothing touched: v⁽¹⁾ = v⁽⁰⁾ + h M⁻¹ f.
     // Then the impulses of the last step: v ← v + M⁻¹ Gᵀ λ⁰.
     enter(Phase::warm_start);
     add_gravity(state.motion, model.gravity, h);
-    const double warm_size = apply_warm_start(contacts, pistons, state.motion, model.physics);
+    double warm_size = apply_warm_start(contacts, pistons, state.motion, model.physics);
+    // The impulse of an impact does not grow with the step: it must not loosen the measure of the others.
+    if (begun.impulse_scale > 1.0) warm_size /= begun.impulse_scale * begun.impulse_scale;
 
     // Where the load has changed, the pressure changes with it, through the whole bed at once: λ⁰ ← θ λ⁰.
     const auto scaling =
@@ -148,6 +186,10 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
     enter(Phase::sweeps);
     const auto solve = solve_contacts(contacts, pistons, state.motion, model.physics, model.solver, warm_size);
     pistons.store(contacts, state);
+    if (fastest_of(state, fastest) > fastest) {
+        std::tie(state.motion, state.pistons) = before;
+        return std::nullopt;
+    }
 
     auto loads = model.physics.wall_loads ? wall_loads(contacts, state, model.walls.size()) : std::vector<WallLoad>{};
 
@@ -157,8 +199,12 @@ StepReport advance(State& state, ContactNetwork& contacts, const Model& model, c
     const double load_work = move_pistons(state, model.pistons, h);
     if (model.solver.stabilisation == Stabilisation::projected)
         project_positions(contacts, state, model, begun.walls, projected_share);
+    if (model.solver.sub_steps > 1) hold_at_walls(contacts, state, model, begun.walls);
     wrap_positions(state, model.periodicity);
-    state.time = static_cast<double>(++state.steps) * h;
+    if (model.solver.sub_steps == 1)
+        state.time = static_cast<double>(++state.steps) * h;
+    else
+        state.time += h;
 
     // What there is to tell, and what the next step begins with.
     enter(Phase::report);

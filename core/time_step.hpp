@@ -11,6 +11,7 @@
 #include "core/wall_load.hpp"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace talus
@@ -21,8 +22,11 @@ enum class Phase { search, assembly, warm_start, sweeps, positions, report };
 
 using PhaseObserver = std::function<void(Phase)>;
 
-/// How a step went. Returned by value, so nothing leaks from one step into the next.
+/// How a step went. Returned by value, so nothing leaks from one step into the next. Of a step that was split:
+/// sums of what adds up (sweeps, impulses, work), the worst of errors, speeds and overlaps, and the rest of its last
+/// sub-step.
 struct StepReport {
+    int sub_steps = 1; ///< into which the step was split (sub_steps.hpp)
     int sweeps = 0;
     double residual = 0.0;            ///< ε after the last sweep (gauss_seidel.hpp)
     bool converged = true;            ///< residual ≤ tolerance
@@ -52,15 +56,21 @@ struct BegunStep {
     std::vector<PlacedWall> walls; ///< where they stand, and their mean velocities over the step
     std::size_t searched = 0;      ///< spheres whose neighbours were searched anew
     ContactSurvey survey;
+    double impulse_scale = 1.0; ///< of the carried impulses, where the step before had another length
 };
 
 /// The beginning of a step, from which `contacts` has the problem that the rest of it solves. Positions and velocities
 /// stay as they are; the spheres' order may change.
 BegunStep begin_step(State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer = {});
 
-/// Advances the state by one step h: velocities first, then positions.
+/// Advances the state by one step h, or one sub-step: velocities first, then positions.
 ///
 /// `contacts` belongs to `state`: it carries the candidate list and the impulses from step to step.
 StepReport advance(State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer = {});
+
+/// Likewise, unless the impulses have made a sphere or a piston faster than `fastest` [m/s]: then nothing has moved,
+/// and velocities are as they were.
+std::optional<StepReport> advance_unless_faster(
+    double fastest, State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer = {});
 
 } // namespace talus

@@ -59,7 +59,7 @@ std::vector<std::size_t> shown_spheres(const State& state, const OutputChoice& o
 std::vector<ContactLine> loaded_contacts(const Simulation& simulation)
 {
     const State& state = simulation.state;
-    const double h = simulation.model.time_step;
+    const double h = simulation.contacts.impulse_step;
     std::vector<ContactLine> lines;
     const auto add = [&](const Contact& c, const ContactGeometry& g, double length, std::int64_t id_b, int wall) {
         const Vec3& x = state.position[c.a];
@@ -104,7 +104,7 @@ void add_particle_arrays(vtkPointData& data, const Simulation& simulation, const
         add_integers(data, "material", count, [&](std::size_t k) { return state.material[shown[k]]; });
     if (!asked("force") && !asked("coordination")) return;
     const auto loads = sphere_loads(simulation.contacts, state.count());
-    const double h = simulation.model.time_step;
+    const double h = simulation.contacts.impulse_step;
     if (asked("force")) add_vectors(data, "force", count, [&](std::size_t k) { return loads[shown[k]].impulse / h; });
     if (asked("coordination"))
         add_integers(data, "coordination", count, [&](std::size_t k) { return loads[shown[k]].contacts; });

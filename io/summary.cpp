@@ -93,7 +93,8 @@ Json to_json(const ErrorSummary& error)
                     {"worst", error.worst_residual}, {"steps_at_cap", error.steps_at_cap}}},
         {"overlap_d",
             {{"mean", error.mean_overlap}, {"worst", error.worst_overlap}, {"worst_at", error.worst_overlap_time}}},
-        {"long_moves", error.long_moves}, {"cone_violation", error.cone_violation},
+        {"long_moves", error.long_moves}, {"sub_steps", {{"steps", error.split_steps}, {"most", error.most_sub_steps}}},
+        {"cone_violation", error.cone_violation},
         {"energy", {{"lost", error.energy_lost}, {"gained", error.energy_gained}, {"put_in", error.energy_put_in}}}};
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/neighbor_search.hpp"
 #include "core/placed_wall.hpp"
+#include "core/sub_steps.hpp"
 
 namespace talus
 {
@@ -32,7 +33,7 @@ void Simulation::persist(Archive& archive)
 StepReport step(Simulation& simulation, const PhaseObserver& observer)
 {
     let_in_and_out(simulation);
-    return advance(simulation.state, simulation.contacts, simulation.model, observer);
+    return make_step(simulation.state, simulation.contacts, simulation.model, observer);
 }
 
 BegunStep begin_step(Simulation& simulation)

@@ -2,6 +2,7 @@
 #include "tests/support/world.hpp"
 
 #include "core/candidate_search.hpp"
+#include "core/sub_steps.hpp"
 
 #include "tests/support/contacts.hpp"
 
@@ -91,7 +92,7 @@ std::size_t World::update_candidates()
 
 void World::step(int count)
 {
-    for (int i = 0; i < count; ++i) report = advance(state, contacts, model);
+    for (int i = 0; i < count; ++i) report = make_step(state, contacts, model);
 }
 
 std::size_t World::index_of(std::int64_t id) const
@@ -106,7 +107,7 @@ std::vector<ContactForce> World::contact_forces() const
     std::vector<ContactForce> forces;
     for_each_contact(contacts, [&](const ContactArrays& arrays, std::size_t k, bool with_wall) {
         const Contact& contact = arrays.contact[k];
-        ContactForce force = contact_force(contact, arrays.terms[k], arrays.geometry[k], model.time_step);
+        ContactForce force = contact_force(contact, arrays.terms[k], arrays.geometry[k], contacts.impulse_step);
         force.with_wall = with_wall;
         force.a = state.id[static_cast<std::size_t>(contact.a)];
         force.b = with_wall ? contact.b : state.id[static_cast<std::size_t>(contact.b)];
