@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr double d = 2 * standard_radius;
-const double automatic_step = 0.008 * std::sqrt(d / standard_gravity);
+const double time_step = automatic_step();
 const double push_out_speed = 0.1 * std::sqrt(d * standard_gravity);
 
 ContactLaw law_of(double restitution, double friction = 0.0)
@@ -32,7 +32,7 @@ void add_box(World& world, double edge)
 /// Ten spheres on top of each other on the floor, settled.
 World stack(Stabilisation stabilisation)
 {
-    World world = make_world(law_of(0.0, 0.5), production_settings(stabilisation), automatic_step);
+    World world = make_world(law_of(0.0, 0.5), production_settings(stabilisation), time_step);
     world.model.solver.push_out_speed = push_out_speed;
     world.add_plane(Vec3::Zero(), Vec3::UnitZ());
     for (int k = 0; k < 10; ++k) world.add_sphere(Vec3(0, 0, (k + 0.5) * d));
@@ -43,7 +43,7 @@ World stack(Stabilisation stabilisation)
 /// 200 spheres of two sizes that fly about in a closed box at up to 60 m/s, so that nearly every step is split.
 World fast_gas(Stabilisation stabilisation)
 {
-    World world = make_world(law_of(0.8, 0.3), production_settings(stabilisation), automatic_step);
+    World world = make_world(law_of(0.8, 0.3), production_settings(stabilisation), time_step);
     world.model.solver.push_out_speed = push_out_speed;
     add_box(world, 0.14);
     Random random(5);
@@ -101,7 +101,7 @@ TEST_CASE("a stack at rest does not notice steps that are split for a sphere far
             world.step();
             alone.step();
             most_sub_steps = std::max(most_sub_steps, world.report.sub_steps);
-            worst_force = std::max(worst_force, std::abs(world.report.wall_impulse.z() / automatic_step / weight - 1));
+            worst_force = std::max(worst_force, std::abs(world.report.wall_impulse.z() / time_step / weight - 1));
             for (int i = 0; i < 10; ++i) {
                 farthest = std::max(farthest, (world.position(i) - alone.position(i)).norm());
                 liveliest = std::max(liveliest, kinetic_energy(world.state.motion[world.index_of(i)]));

@@ -13,13 +13,13 @@ namespace
 {
 
 constexpr double d = 2 * standard_radius;
-const double automatic_step = 0.008 * std::sqrt(d / standard_gravity);
+const double time_step = automatic_step();
 
 World rigid_world(bool scaled)
 {
     ContactLaw law;
     law.friction = 0.5;
-    World world = make_world(law, production_settings(Stabilisation::projected), automatic_step);
+    World world = make_world(law, production_settings(Stabilisation::projected), time_step);
     world.model.solver.pressure_scaling = scaled;
     world.add_plane(Vec3::Zero(), Vec3::UnitZ());
     return world;
@@ -54,16 +54,16 @@ struct Outcome {
 Outcome watch(World world, double weight)
 {
     constexpr double duration = 5.0, watched = 1.0;
-    const int steps = static_cast<int>(duration / automatic_step);
+    const int steps = static_cast<int>(duration / time_step);
     Outcome out;
     double sweeps = 0.0;
     for (int k = 1; k <= steps; ++k) {
         world.step();
-        const double error = std::abs(world.report.wall_impulse.z() / automatic_step - weight) / weight;
+        const double error = std::abs(world.report.wall_impulse.z() / time_step - weight) / weight;
         sweeps += world.report.sweeps;
         if (error > 0.05) out.sweeps = sweeps;
         out.rise = std::max(out.rise, (world.position(0).z() - 0.5 * d) / d);
-        if (k * automatic_step < duration - watched) continue;
+        if (k * time_step < duration - watched) continue;
         out.overlap = std::max(out.overlap, world.report.worst_overlap / d);
         out.floor_error = std::max(out.floor_error, error);
     }

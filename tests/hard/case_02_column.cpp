@@ -22,8 +22,7 @@ World column(int height, Stabilisation stabilisation, bool scaled)
 {
     ContactLaw rough;
     rough.friction = 0.5;
-    const double step = 0.008 * std::sqrt(d / standard_gravity);
-    World world = make_world(rough, {}, production_settings(stabilisation), step);
+    World world = make_world(rough, {}, production_settings(stabilisation), automatic_step());
     world.model.solver.pressure_scaling = scaled;
     world.model.solver.push_out_speed = 0.1 * std::sqrt(d * standard_gravity);
     world.add_plane(Vec3::Zero(), Vec3::UnitZ());
