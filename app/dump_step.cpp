@@ -29,7 +29,7 @@ std::vector<Incident> step_until(Simulation& simulation, double time, Verbosity 
     while (!has_reached(simulation, time) && report.incidents.empty()) {
         report = step(simulation);
         progress.update(simulation, report, clock.wall());
-        const std::string warning = watch.warning_after(report);
+        const std::string warning = watch.warning_after(report, &simulation);
         if (warning.empty() || verbosity == Verbosity::quiet) continue;
         progress.finish();
         warn("t = {:.6g} s: {}\n", simulation.state.time, warning);

@@ -15,8 +15,8 @@ namespace talus
 namespace
 {
 
-/// Escapes told one by one on standard error.
-constexpr std::size_t escapes_told = 5;
+/// Escapes, and presses, told one by one on standard error.
+constexpr std::size_t incidents_told = 5;
 
 std::vector<std::string> metrics_columns(const Simulation& simulation)
 {
@@ -49,11 +49,12 @@ RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbo
 
 RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive* checkpoint)
     : simulation_(opened.simulation), folder_(folder), origin_(origin_of(opened.name, opened.scene)),
-      remove_escaped_(opened.scene.world.on_escape == "remove"), wall_interval_(opened.scene.checkpoint.wall_interval),
-      verbosity_(verbosity), metrics_schedule_(opened.scene.time.metrics_interval),
-      particle_schedule_(opened.scene.time.frame_interval), contact_schedule_(opened.scene.output.contact_interval),
-      checkpoint_schedule_(opened.scene.checkpoint.interval), frames_(folder), watch_(opened.simulation.model),
-      progress_(verbosity, opened.simulation)
+      remove_escaped_(opened.scene.world.on_escape == "remove"),
+      go_on_pressed_(opened.scene.solver.on_no_solution == "go_on"),
+      wall_interval_(opened.scene.checkpoint.wall_interval), verbosity_(verbosity),
+      metrics_schedule_(opened.scene.time.metrics_interval), particle_schedule_(opened.scene.time.frame_interval),
+      contact_schedule_(opened.scene.output.contact_interval), checkpoint_schedule_(opened.scene.checkpoint.interval),
+      frames_(folder), watch_(opened.simulation.model), progress_(verbosity, opened.simulation)
 {
     if (checkpoint)
         go_on(*checkpoint);
@@ -121,10 +122,10 @@ bool RunLoop::next_step_is_last() const
 
 bool RunLoop::stops_the_run(const StepReport& report) const
 {
-    const auto may_be_removed = [](const Incident& incident) {
-        return incident.kind == Incident::Kind::escaped && !incident.of_piston();
-    };
-    return !report.incidents.empty() && !(remove_escaped_ && std::ranges::all_of(report.incidents, may_be_removed));
+    return std::ranges::any_of(report.incidents, [&](const Incident& incident) {
+        const bool may_be_removed = incident.kind == Incident::Kind::escaped && !incident.of_piston();
+        return !(may_be_removed && remove_escaped_) && !(incident.kind == Incident::Kind::pressed && go_on_pressed_);
+    });
 }
 
 void RunLoop::take_out_escaped(const StepReport& report)
@@ -147,23 +148,27 @@ StepReport RunLoop::make_step()
 
 void RunLoop::tell(const StepReport& report)
 {
-    if (const std::string warning = watch_.warning_after(report); !warning.empty()) {
+    if (const std::string warning = watch_.warning_after(report, &simulation_); !warning.empty()) {
         progress_.finish();
         if (verbosity_ != Verbosity::quiet) warn("t = {:.6g} s: {}\n", simulation_.state.time, warning);
     }
-    if (!stops_the_run(report)) tell_escaped(report);
+    if (!stops_the_run(report)) tell_incidents(report);
     progress_.update(simulation_, report, clock_.wall());
 }
 
-void RunLoop::tell_escaped(const StepReport& report)
+void RunLoop::tell_incidents(const StepReport& report)
 {
-    for (std::size_t k = 0; k < report.incidents.size(); ++k) {
-        const std::size_t told = simulation_.escaped.size() + k;
-        if (told > escapes_told) return;
+    std::size_t escapes = simulation_.escaped.size();
+    for (const Incident& incident : report.incidents) {
+        const bool pressed = incident.kind == Incident::Kind::pressed;
+        const std::size_t told = pressed ? presses_told_++ : escapes++;
+        if (told > incidents_told) continue;
         progress_.finish();
-        if (told == escapes_told) return warn("further escapes are told by the ledger and lost.vtp only\n");
-        warn("t = {:.6g} s: {}; it is taken out\n", simulation_.state.time,
-            describe(report.incidents[k], names_of(simulation_.model.walls)));
+        if (told == incidents_told)
+            warn("further {}\n", pressed ? "presses are not told" : "escapes are told by the ledger and lost.vtp only");
+        else
+            warn("t = {:.6g} s: {}; {}\n", simulation_.state.time,
+                describe(incident, names_of(simulation_.model.walls)), pressed ? "they yield" : "it is taken out");
     }
 }
 

@@ -65,7 +65,7 @@ private:
     void write_what_is_due(const StepReport& report);
     void write_the_rest(const StepReport& report);
     void tell(const StepReport& report);
-    void tell_escaped(const StepReport& report);
+    void tell_incidents(const StepReport& report);
 
     bool checkpoint_is_due();
     void write_checkpoint();
@@ -82,6 +82,7 @@ private:
     std::filesystem::path folder_;
     RunOrigin origin_;
     bool remove_escaped_;
+    bool go_on_pressed_;
     double wall_interval_; ///< between checkpoints [s]
     Verbosity verbosity_;
     Schedule metrics_schedule_, particle_schedule_, contact_schedule_, checkpoint_schedule_;
@@ -91,6 +92,7 @@ private:
     FrameWriter frames_;
     std::optional<MetricsFile> metrics_; ///< there as soon as the loop is made
     StepWatch watch_;
+    std::size_t presses_told_ = 0;
     RunStatistics statistics_;
     PhaseClock clock_;
     Progress progress_;

@@ -18,8 +18,9 @@ namespace
 
 /// What says how long a run is and what is written of it, but not where the spheres go from one step to the next; and
 /// how exactly they go. A name in brackets stands for all keys of its table.
-constexpr std::array<std::string_view, 9> changeable = {"title", "time.duration", "time.frame_interval",
-    "time.metrics_interval", "[output]", "[checkpoint]", "solver.tolerance", "solver.max_sweeps", "world.on_escape"};
+constexpr std::array<std::string_view, 10> changeable = {"title", "time.duration", "time.frame_interval",
+    "time.metrics_interval", "[output]", "[checkpoint]", "solver.tolerance", "solver.max_sweeps",
+    "solver.on_no_solution", "world.on_escape"};
 
 bool may_change(std::string_view key)
 {

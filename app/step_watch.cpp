@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/step_watch.hpp"
 
+#include "core/loaded_contacts.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,12 +25,31 @@ double round_down(double value)
     return std::floor(value / unit) * unit;
 }
 
+/// ", now sphere 3 and the wall 'lid' most": the bodies of the deepest contact.
+std::string deepest_now(const Simulation& simulation)
+{
+    const State& state = simulation.state;
+    double deepest = 0.0;
+    std::string who;
+    for_each_loaded_sphere_contact(simulation.contacts, [&](const Contact& c, const ContactGeometry& g) {
+        if (-g.gap <= deepest) return;
+        deepest = -g.gap;
+        who = fmt::format(", now spheres {} and {} most", state.id[c.a], state.id[c.b]);
+    });
+    for_each_loaded_wall_contact(simulation.contacts, [&](const Contact& c, const ContactGeometry& g) {
+        if (-g.gap <= deepest) return;
+        deepest = -g.gap;
+        who = fmt::format(", now sphere {} and the wall '{}' most", state.id[c.a], simulation.model.walls[c.b].name);
+    });
+    return who;
+}
+
 } // namespace
 
-std::string StepWatch::warning_after(const StepReport& report)
+std::string StepWatch::warning_after(const StepReport& report, const Simulation* simulation)
 {
     const std::string of_moves = warning_of_moves(report);
-    return of_moves.empty() ? warning_of_overlap(report) : of_moves;
+    return of_moves.empty() ? warning_of_overlap(report, simulation) : of_moves;
 }
 
 std::string StepWatch::warning_of_moves(const StepReport& report)
@@ -43,7 +64,7 @@ std::string StepWatch::warning_of_moves(const StepReport& report)
         steps_with_long_moves_, fastest_, round_down(0.1 * model_.min_diameter / fastest_));
 }
 
-std::string StepWatch::warning_of_overlap(const StepReport& report)
+std::string StepWatch::warning_of_overlap(const StepReport& report, const Simulation* simulation)
 {
     if (overlap_told_) return "";
     if (report.worst_overlap < deep_overlap * model_.mean_diameter) {
@@ -56,9 +77,10 @@ std::string StepWatch::warning_of_overlap(const StepReport& report)
     overlap_told_ = true;
     // the stiffness that the sweeps can carry goes with 1/h²
     const double overlap = deepest_ / model_.mean_diameter;
-    return fmt::format("spheres have overlapped by up to {:.2g} % d for {} steps; contacts are stiffer with shorter "
+    return fmt::format("spheres have overlapped by up to {:.2g} % d for {} steps{}; contacts are stiffer with shorter "
                        "ones: --set time.step={:.2g}",
-        100.0 * overlap, deep_steps_, round_down(model_.time_step * std::sqrt(wanted_overlap / overlap)));
+        100.0 * overlap, deep_steps_, simulation ? deepest_now(*simulation) : "",
+        round_down(model_.time_step * std::sqrt(wanted_overlap / overlap)));
 }
 
 } // namespace talus

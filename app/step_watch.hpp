@@ -3,6 +3,7 @@
 
 #include "core/model.hpp"
 #include "core/time_step.hpp"
+#include "scenarios/simulation.hpp"
 
 #include <string>
 
@@ -16,7 +17,8 @@ public:
     explicit StepWatch(const Model& model) : model_(model) {}
 
     /// Takes in the report of a step. @returns a warning, or nothing
-    std::string warning_after(const StepReport& report);
+    /// @param simulation has made the step: the warning names the spheres and walls in question where it is given
+    std::string warning_after(const StepReport& report, const Simulation* simulation = nullptr);
 
 private:
     const Model& model_;
@@ -27,7 +29,7 @@ private:
     bool move_told_ = false, overlap_told_ = false;
 
     std::string warning_of_moves(const StepReport& report);
-    std::string warning_of_overlap(const StepReport& report);
+    std::string warning_of_overlap(const StepReport& report, const Simulation* simulation);
 };
 
 } // namespace talus

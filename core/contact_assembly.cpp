@@ -2,6 +2,7 @@
 #include "core/contact_assembly.hpp"
 
 #include "core/candidate_search.hpp"
+#include "core/press.hpp"
 #include "core/stabilisation.hpp"
 #include "core/wall_contacts.hpp"
 
@@ -76,15 +77,16 @@ public:
 
     void add(const Touch& touch, const ContactLaw& law, double wall_level)
     {
-        const bool touched = carried_.touched[touch.slot];
+        const std::uint8_t touched = carried_.touched[touch.slot];
         const auto kind =
-            contact_kind(touch.gap, touch.u_n, touch.u_n_ahead, touched, law, step_.h, step_.threshold_speed);
+            contact_kind(touch.gap, touch.u_n, touch.u_n_ahead, touched > 0, law, step_.h, step_.threshold_speed);
         const Vec3 warm = kind == ContactKind::impact
                               ? Vec3::Zero().eval()
                               : warm_impulse(carried_.impulse[touch.slot], touch.normal, law.friction);
         const double w = touch.inverse_mass_sum;
         const auto normal =
-            normal_law({kind, touch.gap, touch.u_n, w, warm.dot(touch.normal)}, law, model_.solver, step_.h);
+            normal_law({kind, touch.gap, touch.u_n, w, warm.dot(touch.normal), is_beyond_solution(touched)}, law,
+                model_.solver, step_.h);
 
         arrays_.contact[next_] = {touch.a, touch.b, touch.normal, normal.target, warm};
         arrays_.terms[next_] = {touch.arm_scale, law.friction, normal.compliance, 1.0 / (w + normal.compliance),
@@ -120,7 +122,7 @@ private:
         survey_.worst_overlap = std::max(survey_.worst_overlap, -gap);
         survey_.overlap_sum -= gap;
         // k = 4 Υ / (Σ_n h²), the stiffness that the compliance stands for.
-        if (law.compliance > 0.0)
+        if (law.compliance > 0.0 && model_.solver.stabilisation == Stabilisation::matched)
             survey_.contact_energy +=
                 2.0 * upsilon / (law.compliance * step_.h * step_.h) * gap * gap * law.feedback_share;
     }
@@ -302,23 +304,53 @@ ContactSurvey assemble_piston_contacts(ContactNetwork& network, const State& sta
     return assembly.result();
 }
 
+/// Tells which contacts are pressed (press.hpp); none with `matched`, whose contacts give way, and none at pistons.
+struct PressGauge {
+    const std::vector<Motion>& motion;
+    double overlap; ///< [m]
+    double closing; ///< [m/s]
+
+    PressGauge(const State& state, const Model& model)
+        : motion(state.motion),
+          overlap(
+              model.solver.stabilisation == Stabilisation::projected ? pressed_overlap * model.min_diameter : infinity),
+          closing(pressed_closing * model.min_diameter / model.time_step)
+    {
+    }
+
+    bool sees(const ContactArrays& arrays, std::size_t k, bool at_wall) const
+    {
+        if (-arrays.geometry[k].gap <= overlap) return false;
+        const Contact& c = arrays.contact[k];
+        Vec3 u = motion[c.a].velocity;
+        if (!at_wall) u -= motion[c.b].velocity;
+        if (!arrays.wall.empty()) u -= arrays.wall[k].velocity;
+        return c.impulse.dot(c.normal) > 0.0 && u.dot(c.normal) < -closing;
+    }
+};
+
 /// Worst excess of the tangential impulse over the cone; carries the impulses of one tile's contacts of one kind.
-double carry(const ContactArrays& arrays, std::size_t first, std::size_t count, CarriedImpulses& carried)
+ContactOutcome carry(const ContactArrays& arrays, std::size_t first, std::size_t count, CarriedImpulses& carried,
+    const PressGauge& gauge, bool at_wall)
 {
-    double worst = 0.0;
+    ContactOutcome outcome;
     for (std::size_t k = first; k < first + count; ++k) {
         const auto& contact = arrays.contact[k];
         const auto& geometry = arrays.geometry[k];
         const bool keeps = geometry.kind != ContactKind::impact;
         const double normal_impulse = contact.impulse.dot(contact.normal);
         const double tangent_impulse = (contact.impulse - normal_impulse * contact.normal).norm();
-        worst = std::max(worst, tangent_impulse - arrays.terms[k].friction * normal_impulse);
-        carried.touched[geometry.slot] = geometry.gap <= 0.0 || normal_impulse > 0.0;
+        outcome.cone_violation =
+            std::max(outcome.cone_violation, tangent_impulse - arrays.terms[k].friction * normal_impulse);
+        std::uint8_t& touched = carried.touched[geometry.slot];
+        const bool pressed = gauge.sees(arrays, k, at_wall);
+        touched = pressed ? count_pressed(touched) : geometry.gap <= 0.0 || normal_impulse > 0.0;
+        if (pressed && came_beyond_solution(touched)) ++outcome.beyond_solution;
         carried.impulse[geometry.slot] = keeps ? contact.impulse : Vec3::Zero().eval();
         if (!arrays.rolling.empty())
             carried.rolling_impulse[geometry.slot] = keeps ? arrays.rolling[k].impulse : Vec3::Zero().eval();
     }
-    return worst;
+    return outcome;
 }
 
 void note_walls_touched(const ContactArrays& arrays, std::size_t first, std::size_t count, State& state)
@@ -359,8 +391,18 @@ ContactSurvey assemble_contacts(
     return all;
 }
 
-ContactOutcome carry_impulses(ContactNetwork& network, State& state)
+ContactOutcome& ContactOutcome::operator+=(const ContactOutcome& other)
 {
+    cone_violation = std::max(cone_violation, other.cone_violation);
+    wall_impulse += other.wall_impulse;
+    wall_work += other.wall_work;
+    beyond_solution += other.beyond_solution;
+    return *this;
+}
+
+ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model)
+{
+    const PressGauge gauge(state, model);
     const auto tiles = static_cast<std::int64_t>(network.tiles.count());
     std::vector<ContactOutcome> outcomes(network.tiles.count());
 #pragma omp parallel for schedule(dynamic) if (tiles > 16)
@@ -369,9 +411,9 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state)
         auto& outcome = outcomes[tile];
         const auto first = network.wall_slots_of_tile[tile];
         const auto& walls = network.wall_contacts;
-        outcome.cone_violation = std::max(carry(network.sphere_contacts, network.pairs_of_tile[tile],
-                                              network.sphere_contacts.count[tile], network.pair_carried),
-            carry(walls, first, walls.count[tile], network.wall_carried));
+        outcome = carry(network.sphere_contacts, network.pairs_of_tile[tile], network.sphere_contacts.count[tile],
+            network.pair_carried, gauge, false);
+        outcome += carry(walls, first, walls.count[tile], network.wall_carried, gauge, true);
         for (std::size_t k = first; k < first + walls.count[tile]; ++k) {
             outcome.wall_impulse += walls.contact[k].impulse;
             if (!walls.wall.empty()) outcome.wall_work += walls.contact[k].impulse.dot(walls.wall[k].velocity);
@@ -381,14 +423,12 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state)
         note_walls_touched(walls, first, walls.count[tile], state);
     }
     ContactOutcome all;
-    for (const auto& outcome : outcomes) {
-        all.cone_violation = std::max(all.cone_violation, outcome.cone_violation);
-        all.wall_impulse += outcome.wall_impulse;
-        all.wall_work += outcome.wall_work;
-    }
+    for (const auto& outcome : outcomes) all += outcome;
     if (!network.piston_contacts.contact.empty()) {
         const auto& pistons = network.piston_contacts;
-        all.cone_violation = std::max(all.cone_violation, carry(pistons, 0, pistons.count[0], network.wall_carried));
+        PressGauge none = gauge; // a piston gives way
+        none.overlap = infinity;
+        all += carry(pistons, 0, pistons.count[0], network.wall_carried, none, true);
         note_walls_touched(pistons, 0, pistons.count[0], state);
     }
     return all;

@@ -16,7 +16,9 @@ namespace talus
 struct CarriedImpulses {
     std::vector<Vec3> impulse;         ///< λ [N s], zero where nothing is carried
     std::vector<Vec3> rolling_impulse; ///< [N m s]; empty unless the scene has rolling resistance
-    std::vector<std::uint8_t> touched; ///< 1: in the step before it overlapped or had an impulse
+    /// 0: in the step before it neither overlapped nor had an impulse; 1 did, and so does 1 + n, which has been pressed
+    /// for n steps (press.hpp).
+    std::vector<std::uint8_t> touched;
 
     CarriedImpulses() = default;
     CarriedImpulses(std::size_t slots, bool with_rolling);

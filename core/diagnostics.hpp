@@ -18,14 +18,17 @@ Vec3 linear_momentum(const State& state);                         ///< Σ m v [k
 Vec3 angular_momentum(const State& state);                        ///< Σ (x × m v + I ω) about the origin [kg m²/s]
 
 /// Something that must not go on unseen: a sphere, or a piston, that escaped, is not a number, or moves faster than it
-/// can.
+/// can; or bodies that are pressed together so that no motion obeys their contacts (press.hpp).
 struct Incident {
-    enum class Kind { escaped, not_a_number, blow_up };
+    enum class Kind { escaped, not_a_number, blow_up, pressed };
     Kind kind = Kind::escaped;
     std::int64_t id = -1; ///< of the sphere; −1: it is a piston, that of the wall below
     Vec3 position = Vec3::Zero();
     double speed = 0.0;          ///< [m/s]
     std::int32_t last_wall = -1; ///< index of the wall that the sphere touched last, −1: none; of a piston, its own
+    std::vector<std::int64_t> spheres = {}; ///< all that are pressed together, by id …
+    std::vector<std::int32_t> walls = {};   ///< … and by index the walls that press them
+    double overlap = 0.0;                   ///< of the contact that tells it [m]
 
     bool of_piston() const { return id < 0; }
 };

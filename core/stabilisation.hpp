@@ -30,10 +30,11 @@ struct NormalLaw {
 /// What the law of a contact depends on.
 struct ContactEvent {
     ContactKind kind;
-    double gap;              ///< g [m]
-    double u_n;              ///< of v⁽⁰⁾, before gravity [m/s]
-    double inverse_mass_sum; ///< W [1/kg]
-    double carried_normal;   ///< λ_n⁽⁰⁾ [N s]
+    double gap;                   ///< g [m]
+    double u_n;                   ///< of v⁽⁰⁾, before gravity [m/s]
+    double inverse_mass_sum;      ///< W [1/kg]
+    double carried_normal;        ///< λ_n⁽⁰⁾ [N s]
+    bool beyond_solution = false; ///< press.hpp
 };
 
 /// Σ_n of a resting contact of `matched`: that of the material's stiffness k, but no stiffer than N_min sweeps can
@@ -68,10 +69,12 @@ inline NormalLaw matched_law(const ContactEvent& event, const ContactLaw& law, c
     return {held + push_out + upsilon * event.u_n, compliance, share};
 }
 
-/// `projected`: rigid, u_n ≥ 0; overlap is removed by moving the spheres (position_projection.hpp).
-inline NormalLaw projected_law()
+/// `projected`: rigid, u_n ≥ 0; overlap is removed by moving the spheres (position_projection.hpp). What is beyond
+/// solution yields: it has an impulse in proportion to the speed with which it is closed, and none when it is not.
+inline NormalLaw projected_law(const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, double h)
 {
-    return {0.0, 0.0};
+    if (!event.beyond_solution) return {0.0, 0.0};
+    return {0.0, matched_compliance(law, event.inverse_mass_sum, h, solver.min_sweeps)};
 }
 
 /// The law of a contact by its kind: README (4).
@@ -85,7 +88,8 @@ inline NormalLaw normal_law(const ContactEvent& event, const ContactLaw& law, co
     case ContactKind::resting:
         break;
     }
-    return solver.stabilisation == Stabilisation::matched ? matched_law(event, law, solver, h) : projected_law();
+    return solver.stabilisation == Stabilisation::matched ? matched_law(event, law, solver, h)
+                                                          : projected_law(event, law, solver, h);
 }
 
 /// Which law a contact follows in this step.

@@ -65,7 +65,8 @@ void merge(StepReport& whole, StepReport next)
     }
     for (const Incident& earlier : whole.incidents) {
         std::erase_if(next.incidents, [&](const Incident& incident) {
-            return incident.id == earlier.id && (!incident.of_piston() || incident.last_wall == earlier.last_wall);
+            return incident.kind == earlier.kind && incident.id == earlier.id &&
+                   (!incident.of_piston() || incident.last_wall == earlier.last_wall);
         });
         next.incidents.push_back(earlier);
     }
@@ -74,8 +75,9 @@ void merge(StepReport& whole, StepReport next)
 
 bool goes_on(const StepReport& report)
 {
-    return std::ranges::all_of(
-        report.incidents, [](const Incident& incident) { return incident.kind == Incident::Kind::escaped; });
+    return std::ranges::all_of(report.incidents, [](const Incident& incident) {
+        return incident.kind == Incident::Kind::escaped || incident.kind == Incident::Kind::pressed;
+    });
 }
 
 /// A step of this model in so many sub-steps, or more where they turn out to be too few.

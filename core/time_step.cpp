@@ -7,6 +7,7 @@
 #include "core/gauss_seidel.hpp"
 #include "core/piston_group.hpp"
 #include "core/position_projection.hpp"
+#include "core/press.hpp"
 #include "core/pressure_scaling/pressure_scaling.hpp"
 #include "core/stabilisation.hpp"
 
@@ -209,9 +210,11 @@ std::optional<StepReport> advance_unless_faster(
     // What there is to tell, and what the next step begins with.
     enter(Phase::report);
     mark_leaving(state, model.outlets);
-    const auto outcome = carry_impulses(contacts, state);
-    return make_report(
-        begun, contacts, solve, scaling, outcome, std::move(loads), load_work, survey_state(state, model));
+    const auto outcome = carry_impulses(contacts, state, model);
+    StateSurvey bodies = survey_state(state, model);
+    if (outcome.beyond_solution > 0)
+        for (Incident& press : find_presses(contacts, state, model)) bodies.incidents.push_back(std::move(press));
+    return make_report(begun, contacts, solve, scaling, outcome, std::move(loads), load_work, std::move(bodies));
 }
 
 } // namespace talus

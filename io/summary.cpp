@@ -4,7 +4,10 @@
 #include "io/run_files.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 namespace talus
 {
@@ -22,6 +25,8 @@ const char* kind_name(Incident::Kind kind)
         return "not_a_number";
     case Incident::Kind::blow_up:
         return "blow_up";
+    case Incident::Kind::pressed:
+        return "pressed";
     }
     return "";
 }
@@ -35,8 +40,39 @@ const char* sentence_of(Incident::Kind kind)
         return "has a position or velocity that is not a number";
     case Incident::Kind::blow_up:
         return "moves faster than anything in this scene can";
+    case Incident::Kind::pressed:
+        return "is pressed so that no motion obeys its contacts";
     }
     return "";
+}
+
+/// "'floor' and 'lid'", "0, 1, 2 and 7 more": as many as told, the others by their number.
+std::string enumeration(const std::vector<std::string>& names)
+{
+    constexpr std::size_t told = 4;
+    std::vector<std::string> parts(
+        names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(told, names.size())));
+    if (names.size() > told) parts.push_back(fmt::format("{} more", names.size() - told));
+    if (parts.size() < 2) return parts.empty() ? "" : parts.front();
+    const std::string last = parts.back();
+    parts.pop_back();
+    return fmt::format("{} and {}", fmt::join(parts, ", "), last);
+}
+
+std::string describe_press(const Incident& incident, const std::vector<std::string>& wall_names)
+{
+    std::vector<std::string> with, walls;
+    for (const auto id : incident.spheres)
+        if (id != incident.id) with.push_back(std::to_string(id));
+    for (const auto wall : incident.walls)
+        walls.push_back(fmt::format("'{}'", wall_names[static_cast<std::size_t>(wall)]));
+    const auto& x = incident.position;
+    return fmt::format("sphere {} {}: it overlaps by {:.2g} m at ({:.4g}, {:.4g}, {:.4g}) m, and more with every step, "
+                       "{}between {}",
+        incident.id, sentence_of(incident.kind), incident.overlap, x.x(), x.y(), x.z(),
+        with.empty() ? "" : fmt::format("with {} {} ", with.size() == 1 ? "sphere" : "spheres", enumeration(with)),
+        walls.empty() ? "spheres"
+                      : fmt::format("{} {}", walls.size() == 1 ? "the wall" : "the walls", enumeration(walls)));
 }
 
 Json to_json(const Incident& incident, const std::vector<std::string>& wall_names)
@@ -45,6 +81,10 @@ Json to_json(const Incident& incident, const std::vector<std::string>& wall_name
     Json json = {{"kind", kind_name(incident.kind)}, {"id", incident.id}, {"position", {x.x(), x.y(), x.z()}},
         {"speed", incident.speed}, {"last_wall", nullptr}, {"sentence", describe(incident, wall_names)}};
     if (incident.last_wall >= 0) json["last_wall"] = wall_names[static_cast<std::size_t>(incident.last_wall)];
+    if (incident.kind != Incident::Kind::pressed) return json;
+    json["spheres"] = incident.spheres;
+    json["walls"] = Json::array();
+    for (const auto wall : incident.walls) json["walls"].push_back(wall_names[static_cast<std::size_t>(wall)]);
     return json;
 }
 
@@ -110,6 +150,7 @@ Json to_json(const TimingSummary& timing)
 
 std::string describe(const Incident& incident, const std::vector<std::string>& wall_names)
 {
+    if (incident.kind == Incident::Kind::pressed) return describe_press(incident, wall_names);
     const auto& x = incident.position;
     if (incident.of_piston())
         return fmt::format("the wall '{}' {}: its middle is at ({:.4g}, {:.4g}, {:.4g}) m with {:.4g} m/s",

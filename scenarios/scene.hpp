@@ -155,6 +155,7 @@ struct SolverTable {
     double restitution_threshold = 3.0;
     NumberOrName push_out_speed = {0.0, "auto"};
     SwitchOrName pressure_scaling = {false, "auto"};
+    std::string on_no_solution = "stop";
 
     static void describe(auto& self, auto&& key)
     {
@@ -177,6 +178,10 @@ struct SolverTable {
             "carries changes of load through the whole bed before the sweeps; only with projected; auto: with "
             "projected, "
             "where the bed is ten grains deep or something rests on grains much lighter");
+        key("on_no_solution", self.on_no_solution, one_of({"stop", "go_on"}), "",
+            "when walls press spheres together so that projected, which is rigid, has no solution; go_on: their "
+            "contacts "
+            "yield, and the run tells of them");
     }
 };
 

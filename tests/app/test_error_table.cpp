@@ -247,6 +247,11 @@ const std::vector<Situation> situations = {
         "printf '[[wall]]\nname = \"w\"\nmaterial = \"glass\"\nshape = \"disk\"\ncenter = [1, 1, 0]\nradius = 0.1"
         "\nmass = 1\nguide = [0, 0, 1]\n' >> scene.toml",
         run + " --until 1"},
+    {"a press that closes on a rigid sphere",
+        "printf '[[wall]]\nname = \"lid\"\nmaterial = \"glass\"\nshape = \"disk\"\ncenter = [0, 0, 0.0105]\nradius = "
+        "0.03"
+        "\n[[wall.motion]]\nkind = \"translate\"\nvelocity = [0, 0, -0.01]\n' >> bead.toml",
+        "run bead.toml --quiet --until 1 --set solver.stabilisation=projected --set 'fill.0.velocity=[0, 0, 0]'"},
     {"SIGINT", "", stopped_by("INT")},
     {"SIGTERM", "", stopped_by("TERM")},
     {"a folder that cannot be made", "touch file", "run scene.toml -o file/out"},
@@ -274,6 +279,7 @@ std::string with_placeholders(std::string text, const Workplace& place)
     const std::vector<std::pair<const char*, const char*>> changing = {
         {"neither a file nor one of .*", "neither a file nor one of …"}, {"t = [^ ]* s", "t = … s"},
         {R"(is at \(.*\) m with .* m/s)", "is at (…) m with … m/s"},
+        {R"(by [^ ]* m at \([^)]*\) m)", "by … m at (…) m"},
         {"hold [0-9]* bytes and holds [0-9]*", "hold … bytes and holds …"}};
     for (const auto& [pattern, placeholder] : changing)
         text = std::regex_replace(text, std::regex(pattern), placeholder);

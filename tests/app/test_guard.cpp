@@ -67,6 +67,42 @@ TEST_CASE("with on_escape = \"remove\" a sphere that escapes is taken out, kept 
     CHECK_THAT(place.read("out/lost.vtp"), Contains("NumberOfPoints=\"1\"") && Contains("Name=\"last_wall\""));
 }
 
+TEST_CASE(
+    "a press that closes on a rigid sphere stops the run, or is told once where the scene goes on", "[app][guard]")
+{
+    const std::string press = bead_on_a_table + R"([[wall]]
+name = "lid"
+shape = "disk"
+material = "glass"
+center = [0.0, 0.0, 0.0105]
+radius = 0.03
+[[wall.motion]]
+kind = "translate"
+velocity = [0.0, 0.0, -0.01]
+to = 0.11
+[[wall.motion]]
+kind = "translate"
+velocity = [0.0, 0.0, 0.01]
+from = 0.11
+)";
+    const std::string still = "--set solver.stabilisation=projected --set 'fill.0.velocity=[0, 0, 0]' --until 0.3";
+    const Workplace place;
+    const Outcome stopped = place.run(press, still);
+    CHECK(stopped.exit_code == 3);
+    CHECK_THAT(stopped.err, Contains("sphere 0 ") && Contains("pressed") && Contains("'table'") && Contains("'lid'"));
+    const auto summary = nlohmann::json::parse(place.read("out/summary.json"));
+    const auto& incident = summary["incidents"].at(0);
+    CHECK(incident["kind"] == "pressed");
+    CHECK(incident["spheres"] == nlohmann::json{0});
+    CHECK(incident["walls"] == nlohmann::json{"table", "lid"});
+
+    const Workplace other;
+    const Outcome gone_on = other.run(press, still + " --set solver.on_no_solution=go_on");
+    CHECK(gone_on.exit_code == 0);
+    CHECK_THAT(gone_on.err, Contains("sphere 0 ") && Contains("'lid'; they yield"));
+    CHECK(line_of(gone_on.err + "|", "|") == 2); // once
+}
+
 TEST_CASE("spheres that move far in a step are told once, with the step that would do", "[app][guard]")
 {
     const Workplace place;

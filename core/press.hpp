@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/contact_network.hpp"
+#include "core/diagnostics.hpp"
+#include "core/model.hpp"
+#include "core/state.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace talus
+{
+
+// Walls that move as told may ask for what rigid bodies cannot do: a press that closes on a sphere. Then no velocity
+// obeys all contacts, the impulses grow with every sweep, and the residual, which is relative to them, comes to say
+// that all is well. What tells it is a contact that has an impulse, overlaps, and closes even so, for many steps
+// without a break.
+
+/// A contact of `projected` counts as pressed in a step when it overlaps by this many smallest diameters, and has an
+/// impulse that does not keep it from closing …
+inline constexpr double pressed_overlap = 0.01;
+inline constexpr double pressed_closing = 1e-8; ///< … by this many in the step
+
+/// It is beyond solution when it has been pressed for so many steps on end. Then it yields (stabilisation.hpp), so that
+/// impulses stay finite and none is left over when the press opens.
+inline constexpr int pressed_steps = 100;
+
+/// How `CarriedImpulses::touched` goes on: 1 + the number of steps, up to one more than it takes.
+inline std::uint8_t count_pressed(std::uint8_t touched)
+{
+    return static_cast<std::uint8_t>(std::min<int>(std::max<int>(touched, 1) + 1, 2 + pressed_steps));
+}
+
+inline bool is_beyond_solution(std::uint8_t touched)
+{
+    return touched > pressed_steps;
+}
+
+inline bool came_beyond_solution(std::uint8_t touched)
+{
+    return touched == 1 + pressed_steps;
+}
+
+/// An incident for each group of bodies that loaded contacts with a tenth of such an overlap join together, where a
+/// contact came to be beyond solution in this step, and none of the group was before.
+std::vector<Incident> find_presses(const ContactNetwork& network, const State& state, const Model& model);
+
+} // namespace talus
