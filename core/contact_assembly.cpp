@@ -33,8 +33,9 @@ struct Touch {
     std::int32_t a, b;
     Vec3 normal;
     double gap;
-    double u_n;                 ///< of v⁽⁰⁾ [m/s]
-    double u_n_ahead;           ///< of v⁽¹⁾ [m/s]
+    double u_n;       ///< of v⁽⁰⁾ [m/s]
+    double u_n_ahead; ///< of v⁽¹⁾ [m/s]
+    double u_n_before; ///< of v⁽⁰⁾ against the velocity that the wall had then: 0 where a sphere goes with it [m/s]
     double arm_scale;           ///< s
     double inverse_mass_sum;    ///< W
     double rolling_radius;      ///< R*
@@ -84,9 +85,9 @@ public:
                               ? Vec3::Zero().eval()
                               : warm_impulse(carried_.impulse[touch.slot], touch.normal, law.friction);
         const double w = touch.inverse_mass_sum;
-        const auto normal =
-            normal_law({kind, touch.gap, touch.u_n, w, warm.dot(touch.normal), is_beyond_solution(touched)}, law,
-                model_.solver, step_.h);
+        const double u_n = kind == ContactKind::impact ? touch.u_n : touch.u_n_before;
+        const auto normal = normal_law({kind, touch.gap, u_n, w, warm.dot(touch.normal), is_beyond_solution(touched)},
+            law, model_.solver, step_.h);
 
         arrays_.contact[next_] = {touch.a, touch.b, touch.normal, normal.target, warm};
         arrays_.terms[next_] = {touch.arm_scale, law.friction, normal.compliance, 1.0 / (w + normal.compliance),
@@ -168,6 +169,7 @@ ContactSurvey assemble_sphere_contacts(
                          .gap = distance - radii,
                          .u_n = u_n,
                          .u_n_ahead = u_n, // gravity is the same for both
+                         .u_n_before = u_n,
                          .arm_scale = distance / radii,
                          .inverse_mass_sum = ma.inverse_mass + mb.inverse_mass,
                          .rolling_radius = ma.radius * mb.radius / radii,
@@ -220,6 +222,12 @@ private:
         return {wall.velocity(static_cast<std::size_t>(at.patch), x - radius * at.normal), wall.spin()};
     }
 
+    static Vec3 velocity_before(const PlacedWall& wall, const WallPoint& at, const Vec3& x, double radius)
+    {
+        if (!wall.moves()) return Vec3::Zero();
+        return wall.velocity_before(static_cast<std::size_t>(at.patch), x - radius * at.normal);
+    }
+
     void find_points(const WallPair& pair, const PlacedWall& wall, const Vec3& x)
     {
         points_.clear();
@@ -249,6 +257,7 @@ private:
                          .gap = gap,
                          .u_n = u_n,
                          .u_n_ahead = u_n + step_.h * n.dot(model_.gravity) - n.dot(wall.gain()),
+                         .u_n_before = n.dot(m.velocity - velocity_before(wall, at, x, m.radius)),
                          .arm_scale = 1.0,
                          .inverse_mass_sum = m.inverse_mass + inverse_mass(wall),
                          .rolling_radius = m.radius,

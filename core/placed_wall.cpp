@@ -48,13 +48,17 @@ PlacedWall::PlacedWall(const Wall& wall, const Periodicity& periodicity, double 
     const Vec3 cells = way_back(wall.shape, periodicity, pose_);
     pose_ = first_image(pose_, cells);
     back_ = pose_.inverse();
-    if (step > 0.0) twist_ = twist_between(pose_, first_image(pose_at(wall.motion, time + step), cells), step);
+    if (step <= 0.0) return;
+    twist_ = twist_between(pose_, first_image(pose_at(wall.motion, time + step), cells), step);
+    twist_before_ =
+        time < step ? twist_ : twist_between(first_image(pose_at(wall.motion, time - step), cells), pose_, step);
 }
 
 PlacedWall::PlacedWall(
     const Wall& wall, const Periodicity& periodicity, const Piston& piston, const PistonState& state, const Vec3& gain)
     : wall_(&wall), shape_patches_(talus::patch_count(wall.shape)), images_(images_of(wall.shape, periodicity)),
-      pose_(state.pose), back_(pose_.inverse()), twist_(twist_of(piston, state)), gain_(gain), stands_(true)
+      pose_(state.pose), back_(pose_.inverse()), twist_(twist_of(piston, state)), twist_before_(twist_), gain_(gain),
+      stands_(true)
 {
 }
 
