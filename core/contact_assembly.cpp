@@ -353,7 +353,8 @@ ContactOutcome carry(const ContactArrays& arrays, std::size_t first, std::size_t
             std::max(outcome.cone_violation, tangent_impulse - arrays.terms[k].friction * normal_impulse);
         std::uint8_t& touched = carried.touched[geometry.slot];
         const bool pressed = gauge.sees(arrays, k, at_wall);
-        touched = pressed ? count_pressed(touched) : geometry.gap <= 0.0 || normal_impulse > 0.0;
+        const bool opened = geometry.kind == ContactKind::open; // and closed by the impacts of others, if it was fast
+        touched = pressed ? count_pressed(touched) : geometry.gap <= 0.0 || (normal_impulse > 0.0 && !opened);
         if (pressed && came_beyond_solution(touched)) ++outcome.beyond_solution;
         carried.impulse[geometry.slot] = keeps ? contact.impulse : Vec3::Zero().eval();
         if (!arrays.rolling.empty())
