@@ -19,12 +19,6 @@ double tile_edge(const std::vector<PairEntry>& pairs, const State& state, const 
     return std::max(4.0 * model.max_diameter, 2.001 * farthest);
 }
 
-/// Where the tiles begin: with the world, so that a scene moved as a whole is swept in the same order.
-Vec3 tile_corner(const Model& model)
-{
-    return model.world.min.array().isFinite().select(model.world.min, Vec3::Zero());
-}
-
 /// Which pairs come first in each sphere: first_pair and pair_count, in tile order, and where each tile's pairs begin.
 void count_pairs(ContactNetwork& network, const std::vector<PairEntry>& entries, std::size_t spheres)
 {
@@ -154,7 +148,7 @@ void lay_down_walls(ContactNetwork& network, const CandidateEntries& entries, st
 void lay_down(ContactNetwork& network, const CandidateEntries& entries, const State& state, const Model& model)
 {
     network.tiles =
-        make_tiles(state.position, tile_edge(entries.pairs, state, model), model.periodicity, tile_corner(model));
+        make_tiles(state.position, tile_edge(entries.pairs, state, model), model.periodicity, model.corner);
     lay_down_pairs(network, entries.pairs, state.count(), model.physics.rolling);
     lay_down_walls(network, entries, state.count(), model.physics.rolling);
     network.resize_contacts(model.physics);

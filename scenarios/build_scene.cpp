@@ -63,6 +63,7 @@ Model build_model(const scene::Scene& scene)
     model.pistons = build_pistons(scene, model.walls, model.periodicity);
     model.outlets = build_outlets(scene);
     model.world = build_world(scene, model);
+    model.corner = scene_corner(scene, model);
     model.solver = build_solver(scene);
     return model;
 }

@@ -74,13 +74,15 @@ Box swept_bounds(const Wall& wall, double duration)
     return swept;
 }
 
-Box build_world(const scene::Scene& scene, const Model& model)
+namespace
 {
-    if (!((scene.world.min.array() < scene.world.max.array()).all()))
-        throw SceneError("world.max", "the world is empty: every coordinate of 'min' must be below that of 'max'");
+
+/// Round all walls, on their ways so far, fills, pours and outlets.
+Box content_bounds(const scene::Scene& scene, const Model& model, double duration)
+{
     Box box;
     for (const auto& wall : model.walls)
-        if (const Box b = swept_bounds(wall, scene.time.duration); !b.empty()) box.extend(b);
+        if (const Box b = swept_bounds(wall, duration); !b.empty()) box.extend(b);
     for (std::size_t k = 0; k < scene.fill.size(); ++k) {
         const auto& fill = scene.fill[k];
         if (fill.arrangement != "file") box.extend(build_region(fill.region, key_path("fill", k, "region")).bounds());
@@ -89,7 +91,22 @@ Box build_world(const scene::Scene& scene, const Model& model)
     for (std::size_t k = 0; k < scene.pour.size(); ++k)
         box.extend(build_region(scene.pour[k].region, key_path("pour", k, "region")).bounds());
     for (const auto& outlet : model.outlets) box.extend(outlet.bounds());
-    box = box.grown(5.0 * model.max_diameter);
+    return box;
+}
+
+} // namespace
+
+Vec3 scene_corner(const scene::Scene& scene, const Model& model)
+{
+    const Box box = content_bounds(scene, model, 0.0);
+    return box.empty() ? Vec3::Zero() : box.min;
+}
+
+Box build_world(const scene::Scene& scene, const Model& model)
+{
+    if (!((scene.world.min.array() < scene.world.max.array()).all()))
+        throw SceneError("world.max", "the world is empty: every coordinate of 'min' must be below that of 'max'");
+    Box box = content_bounds(scene, model, scene.time.duration).grown(5.0 * model.max_diameter);
     for (int d = 0; d < 3; ++d) {
         if (model.gravity[d] < 0.0) box.max[d] = infinity;
         if (model.gravity[d] > 0.0) box.min[d] = -infinity;

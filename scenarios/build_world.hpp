@@ -20,6 +20,9 @@ Periodicity build_periodicity(const scene::Scene& scene, double max_diameter);
 /// The box round all places that a wall has during the run; a plane has none and gives an empty one.
 Box swept_bounds(const Wall& wall, double duration);
 
+/// The lower corner of walls, fills, pours and outlets as the scene begins, whatever its duration.
+Vec3 scene_corner(const scene::Scene& scene, const Model& model);
+
 /// The box that no sphere may leave: that of walls, fills, pours and outlets, grown by five diameters and open upwards,
 /// where the scene does not say. @throws SceneError where it is empty
 Box build_world(const scene::Scene& scene, const Model& model);

@@ -19,7 +19,8 @@ std::int32_t wrapped(std::int32_t k, std::int32_t n)
 
 } // namespace
 
-HatGrid::HatGrid(double spacing, const Box& around, const Periodicity& periodicity)
+HatGrid::HatGrid(double spacing, const Box& around, const Periodicity& periodicity, const Vec3& corner)
+    : origin_(corner)
 {
     do {
         spacing_.setConstant(spacing);
@@ -32,8 +33,9 @@ HatGrid::HatGrid(double spacing, const Box& around, const Periodicity& periodici
                 spacing_[d] = periodicity.length[d] / extent_[d];
                 low_[d] = 0;
             } else {
-                low_[d] = static_cast<std::int32_t>(std::floor(around.min[d] / spacing)) - 1;
-                extent_[d] = static_cast<std::int32_t>(std::floor(around.max[d] / spacing)) + margin - low_[d];
+                low_[d] = static_cast<std::int32_t>(std::floor((around.min[d] - corner[d]) / spacing)) - 1;
+                extent_[d] =
+                    static_cast<std::int32_t>(std::floor((around.max[d] - corner[d]) / spacing)) + margin - low_[d];
             }
         }
         spacing *= 2.0;

@@ -37,8 +37,8 @@ class HatGrid
 {
 public:
     /// @param spacing of the nodes [m]; doubled until the box has few enough of them to be counted through
-    /// @param around all points that will be asked for
-    HatGrid(double spacing, const Box& around, const Periodicity& periodicity);
+    /// @param around all points that will be asked for; @param corner a node, but along periodic axes
+    HatGrid(double spacing, const Box& around, const Periodicity& periodicity, const Vec3& corner = Vec3::Zero());
 
     HatPlace place_of(const Vec3& x) const;
 
@@ -51,7 +51,7 @@ public:
     LatticeIndex node(std::size_t number) const;
 
 private:
-    Vec3 origin_ = Vec3::Zero();
+    Vec3 origin_;
     Vec3 spacing_;
     LatticeIndex low_ = {};    ///< the first node along each axis …
     LatticeIndex extent_ = {}; ///< … and how many there are

@@ -26,7 +26,7 @@ HatGrid make_grid(const State& state, const Model& model)
     Box around;
     for (const Vec3& x : state.position) around.extend(x);
     const double spacing = std::max(hat_spacing * model.mean_diameter, widest_grain * model.max_diameter);
-    return {spacing, around.grown(0.5 * model.max_diameter), model.periodicity};
+    return {spacing, around.grown(0.5 * model.max_diameter), model.periodicity, model.corner};
 }
 
 /// t along α at which the energy is least, at most 1; 0 where it rises from the start.

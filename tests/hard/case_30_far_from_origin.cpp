@@ -68,6 +68,7 @@ World playground(const Vec3& place, Stabilisation law)
     World world = make_world({.friction = 0.5, .restitution = 0.5}, production_settings(law), h);
     world.model.solver.push_out_speed = 0.1 * std::sqrt(d * standard_gravity);
     world.model.world = {place - Vec3::Constant(5.0), place + Vec3::Constant(5.0)};
+    world.model.corner = place;
     const double touching = r - 1e-5 * d;
     world.add_plane(place, Vec3::UnitZ());
     add_pyramid(world, place);
@@ -90,6 +91,7 @@ void move_away(Simulation& simulation, const Vec3& way)
     for (Vec3& x : simulation.state.position) x += way;
     for (auto& panel : std::get<Panels>(simulation.model.walls[0].shape).rectangles) panel.corner += way;
     simulation.model.world = simulation.model.world.shifted(way);
+    simulation.model.corner += way;
     for (Box& box : simulation.contacts.listed_box) box = box.shifted(way);
     simulation.contacts.listed_around = simulation.contacts.listed_around.shifted(way);
 }

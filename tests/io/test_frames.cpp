@@ -57,6 +57,7 @@ Simulation stack_of_two()
     state.id = {1, 0};
     state.time = 0.75;
     ContactNetwork& contacts = simulation.contacts;
+    contacts.impulse_step = simulation.model.time_step;
     contacts.pairs_of_tile = {0, 2};
     contacts.sphere_contacts.resize(2, 1, false);
     contacts.sphere_contacts.count = {2}; // the second without an impulse
