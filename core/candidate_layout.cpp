@@ -147,8 +147,7 @@ void lay_down_walls(ContactNetwork& network, const CandidateEntries& entries, st
 
 void lay_down(ContactNetwork& network, const CandidateEntries& entries, const State& state, const Model& model)
 {
-    network.tiles =
-        make_tiles(state.position, tile_edge(entries.pairs, state, model), model.periodicity, model.corner);
+    network.tiles = make_tiles(state.position, tile_edge(entries.pairs, state, model), model.periodicity, model.corner);
     lay_down_pairs(network, entries.pairs, state.count(), model.physics.rolling);
     lay_down_walls(network, entries, state.count(), model.physics.rolling);
     network.resize_contacts(model.physics);

@@ -76,8 +76,9 @@ struct ContactNetwork {
     std::vector<std::int32_t> patches;     ///< by slot
     CarriedImpulses wall_carried;          ///< by slot
     std::vector<Vec3> wall_carried_normal; ///< by slot: the normal by which the next step knows a wall contact again
-    double impulse_step =
-        0.0; ///< how long the impulses, carried and of the contacts below, have acted [s]; 0: none yet
+    /// How long the impulses, carried and of the contacts below, have acted [s]; infinite before the first step, when
+    /// none has.
+    double impulse_step = infinity;
 
     ContactArrays sphere_contacts; ///< tile t from pairs_of_tile[t] on
     ContactArrays wall_contacts;   ///< tile t from wall_slots_of_tile[t] on, without those with pistons …

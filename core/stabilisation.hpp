@@ -93,7 +93,8 @@ inline NormalLaw normal_law(const ContactEvent& event, const ContactLaw& law, co
 }
 
 /// Which law a contact follows in this step.
-/// @param u_n_ahead of v⁽¹⁾, with gravity; @param touched in the step before it overlapped or, unless open, had an impulse
+/// @param u_n_ahead of v⁽¹⁾, with gravity; @param touched in the step before it overlapped or, unless open, had an
+/// impulse
 inline ContactKind contact_kind(
     double gap, double u_n, double u_n_ahead, bool touched, const ContactLaw& law, double h, double threshold_speed)
 {

@@ -113,7 +113,7 @@ StepReport make_report(const BegunStep& begun, const ContactNetwork& contacts, c
 /// Impulses go with the length of the step: those of a step of another length are scaled. Returns by how much.
 double scale_impulses(State& state, ContactNetwork& contacts, double h)
 {
-    const double scale = contacts.impulse_step > 0.0 ? h / contacts.impulse_step : 1.0;
+    const double scale = contacts.impulse_step < infinity ? h / contacts.impulse_step : 1.0;
     contacts.impulse_step = h;
     if (scale == 1.0) return scale;
     contacts.pair_carried.scale(scale);

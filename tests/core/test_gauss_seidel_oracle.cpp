@@ -185,7 +185,7 @@ TEST_CASE("with a piston, whose contacts have coupled blocks, sweeps are those o
     std::swap(world.contacts, unlisted);
     world.step(200);
     advance_until(
-        world, [](const World& w) { return w.contacts.piston_contacts.count[0] >= 3; }, 500);
+        world, [](const World& w) { return w.contacts.piston_contacts.count[0] >= 4; }, 2000);
     world.add_sphere(Vec3(standard_radius + 1e-4, 4 * standard_radius, 30 * standard_radius), Vec3(-2, 1, 0));
     check_against_oracle(world, sweeps);
     CHECK(world.contacts.piston_contacts.count[0] >= 3);
