@@ -120,7 +120,7 @@ TEST_CASE("10 piles with friction of 10 and 1e6", "[hard]")
     // more: 19 to 26 degrees, as with 0.5. A cone that dilates, or friction that acts as an attraction, stands steeper.
     HardCase hard("10 piles with friction of 10 and 1e6");
     for (const char* friction : {"10", "1e6"}) {
-        auto simulation = open_scene("funnel_pile", {std::string("contact.glass-glass.friction=") + friction});
+        auto simulation = open_scene("rough_pile", {std::string("contact.0.friction=") + friction});
         run_until(simulation, 5.0);
         const auto angle = result(simulation, "heap", "angle");
         hard.between(std::string("mu = ") + friction + ": angle of repose [degrees]", angle.value, 19, 26);

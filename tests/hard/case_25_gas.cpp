@@ -141,8 +141,8 @@ TEST_CASE("25 a gas of 1000 spheres without gravity", "[hard]")
     // Elastic, nothing may be lost or gained by ten thousand collisions, though each is found up to a step late or
     // early. What is lost are the collisions that another one brings about within the same step, nearly all of them
     // between a wall and a sphere that is hit close to it: an open contact is closed to its point, at most, and what
-    // its approach was more than that is gone. Some 20 such events in 10 000 collisions take 0.4 to 1 %, about half as
-    // much at a quarter of the step.
+    // its approach was more than that is gone. Some 20 such events in 10 000 collisions take 0.4 to 1 %, less at
+    // shorter steps with a finer tolerance.
     // With e = 0.9 Haff's law (1983): E falls as (1 + t/t_0)^-2, with t_0 = 6/((1 − e²) ν) for the collisions per
     // sphere and second ν that the gas begins with; ν = 4 n g(d) d² sqrt(π T/m), g(d) = (1 − φ/2)/(1 − φ)³.
     HardCase hard("25 a gas of 1000 spheres without gravity");

@@ -91,26 +91,26 @@ Janssen silo(HardCase& hard, const std::string& law, double radius)
 
 } // namespace
 
-TEST_CASE("32 silo at rest", "[hard]")
+TEST_CASE("34 silo at rest", "[hard]")
 {
     // Janssen's screening goes from wall contact to wall contact over the whole height: a solver that is not converged
     // loses it, and gives anything between hydrostatic and none (physics.md 2.1). With 30 sweeps a step in place of 3
     // the tube of 10 d has λ_J = 1.0 D too. Friction at the wall is not used up everywhere, as Janssen has it: beads
     // roll, so that λ_J is more than the D/(4 μ K) of slip, but it must grow with D, and be the same for both laws.
-    HardCase hard("32 silo at rest");
+    HardCase hard("34 silo at rest");
     const Janssen matched = silo(hard, "matched", 0.075), projected = silo(hard, "projected", 0.075);
     const Janssen narrow = silo(hard, "matched", 0.05);
     hard.between("lambda_J of matched [that of projected]", matched.length / projected.length, 0.9, 1.1);
     hard.between("lambda_J/D of D = 10 d [that of D = 15 d]", narrow.length / matched.length * 1.5, 0.9, 1.1);
 }
 
-TEST_CASE("32 silo with smooth walls", "[hard]")
+TEST_CASE("34 silo with smooth walls", "[hard]")
 {
     // Without friction at the wall the floor must carry all of the 50 layers' weight. Plain sweeps bring the news of
     // the floor up a few layers a step: a long wave goes up and down the bed. Of the soft contacts of `matched` it
     // takes two seconds; with rigid ones, and no pressure scaling, the floor's load still swings by half the weight
     // after one, and the bed shakes itself down all the while.
-    HardCase hard("32 silo with smooth walls");
+    HardCase hard("34 silo with smooth walls");
     for (const std::string law : {"matched", "projected"}) {
         auto s = open_scene("silo_at_rest",
             {"solver.stabilisation=" + law, "contact.1.friction=0", "wall.floor.motion=[]", "sensor.floor.from=2.0"});
