@@ -8,6 +8,8 @@ namespace talus
 namespace
 {
 
+constexpr double deepest_in_wall = 0.25; ///< smallest diameters
+
 void separate_spheres(const Contact& c, State& state, const Periodicity& periodicity, double share)
 {
     const Motion& a = state.motion[c.a];
@@ -29,23 +31,24 @@ void separate_from_wall(const Contact& c, double wall_level, State& state, doubl
     if (overlap > 0.0) state.position[c.a] += share * overlap * c.normal;
 }
 
-constexpr double deepest_in_wall = 0.25; ///< smallest diameters
+/// How far a piston has come since the step began. @param began how its wall stood then
+Vec3 way_of(const Piston& piston, const PlacedWall& began, const State& state)
+{
+    return state.pistons[began.wall().piston].pose(piston.center) - began.pose()(piston.center);
+}
 
-/// Likewise; the level goes with the piston, which has come some way since.
-/// @param began how its wall stood when the step began
+/// Likewise; the level goes with the piston.
 void separate_from_piston(
     const Contact& c, double wall_level, const Piston& piston, const PlacedWall& began, State& state, double share)
 {
-    Pose& pose = state.pistons[began.wall().piston].pose;
-    const Vec3 way = pose(piston.center) - began.pose()(piston.center);
-    const double overlap = wall_level + c.normal.dot(way - state.position[c.a]);
+    const double overlap = wall_level + c.normal.dot(way_of(piston, began, state) - state.position[c.a]);
     if (overlap <= 0.0) return;
     const double along_guide = c.normal.dot(piston.guide);
     const double inverse_mass = state.motion[c.a].inverse_mass;
     const double piston_inverse_mass = piston.is_free(state.time) ? 1.0 / piston.mass : 0.0;
     const double shift = share * overlap / (inverse_mass + along_guide * along_guide * piston_inverse_mass);
     state.position[c.a] += inverse_mass * shift * c.normal;
-    pose.shift -= piston_inverse_mass * shift * along_guide * piston.guide;
+    state.pistons[began.wall().piston].pose.shift -= piston_inverse_mass * shift * along_guide * piston.guide;
 }
 
 } // namespace
@@ -91,8 +94,7 @@ void hold_at_walls(
     for (std::size_t k = 0; model.physics.pistons && k < pistons.count[0]; ++k) {
         const Contact& c = pistons.contact[k];
         const PlacedWall& began = walls[c.b];
-        const Piston& piston = model.pistons[began.wall().piston];
-        const Vec3 way = state.pistons[began.wall().piston].pose(piston.center) - began.pose()(piston.center);
+        const Vec3 way = way_of(model.pistons[began.wall().piston], began, state);
         hold(c, pistons.geometry[k].wall_level + c.normal.dot(way));
     }
 }

@@ -2,6 +2,7 @@
 #include "core/time_step.hpp"
 
 #include "core/candidate_search.hpp"
+#include "core/carry_impulses.hpp"
 #include "core/contact_assembly.hpp"
 #include "core/curve_order.hpp"
 #include "core/gauss_seidel.hpp"
@@ -81,15 +82,13 @@ void mark_leaving(State& state, const std::vector<Region>& outlets)
 }
 
 StepReport make_report(const BegunStep& begun, const ContactNetwork& contacts, const SolveReport& solve,
-    const ScalingReport& scaling, const ContactOutcome& outcome, std::vector<WallLoad> loads, double load_work,
-    StateSurvey bodies)
+    const ContactOutcome& outcome, std::vector<WallLoad> loads, double load_work, StateSurvey bodies)
 {
     const ContactSurvey& survey = begun.survey;
     const auto overlapping = static_cast<double>(survey.overlapping);
     return {.sweeps = solve.sweeps,
         .residual = solve.residual,
         .converged = solve.converged,
-        .scaling = scaling,
         .candidates = contacts.pairs.size() + contacts.wall_pairs.size(),
         .contacts = survey.contacts,
         .overlapping = survey.overlapping,
@@ -180,8 +179,7 @@ std::optional<StepReport> advance_unless_faster(
     if (begun.impulse_scale > 1.0) warm_size /= begun.impulse_scale * begun.impulse_scale;
 
     // Where the load has changed, the pressure changes with it, through the whole bed at once: λ⁰ ← θ λ⁰.
-    const auto scaling =
-        model.solver.pressure_scaling ? scale_pressure(contacts, pistons, state, model) : ScalingReport{};
+    if (model.solver.pressure_scaling) scale_pressure(contacts, pistons, state, model);
 
     // The contact impulses: every contact in turn until all laws hold.
     enter(Phase::sweeps);
@@ -214,7 +212,7 @@ std::optional<StepReport> advance_unless_faster(
     StateSurvey bodies = survey_state(state, model);
     if (outcome.beyond_solution > 0)
         for (Incident& press : find_presses(contacts, state, model)) bodies.incidents.push_back(std::move(press));
-    return make_report(begun, contacts, solve, scaling, outcome, std::move(loads), load_work, std::move(bodies));
+    return make_report(begun, contacts, solve, outcome, std::move(loads), load_work, std::move(bodies));
 }
 
 } // namespace talus

@@ -6,7 +6,6 @@
 #include "core/diagnostics.hpp"
 #include "core/model.hpp"
 #include "core/placed_wall.hpp"
-#include "core/pressure_scaling/pressure_scaling.hpp"
 #include "core/state.hpp"
 #include "core/wall_load.hpp"
 
@@ -30,7 +29,6 @@ struct StepReport {
     int sweeps = 0;
     double residual = 0.0;            ///< ε after the last sweep (gauss_seidel.hpp)
     bool converged = true;            ///< residual ≤ tolerance
-    ScalingReport scaling;            ///< of the impulses before the sweeps
     std::size_t candidates = 0;       ///< listed pairs, walls included
     std::size_t contacts = 0;         ///< contacts in the problem, walls included
     std::size_t overlapping = 0;      ///< contacts with g < 0

@@ -51,6 +51,7 @@ Contents contents_of(const Simulation& simulation)
     return all;
 }
 
+/// How deep the bed may become, in mean diameters: its volume, packed, over the room across gravity. 0 without gravity.
 double depth_of(const Contents& all, const Model& model)
 {
     if (model.gravity.isZero() || all.room.empty()) return 0.0;
@@ -63,11 +64,6 @@ double depth_of(const Contents& all, const Model& model)
 }
 
 } // namespace
-
-double bed_depth(const Simulation& simulation)
-{
-    return depth_of(contents_of(simulation), simulation.model);
-}
 
 bool choose_pressure_scaling(const scene::Scene& scene, const Simulation& simulation)
 {

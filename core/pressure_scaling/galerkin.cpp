@@ -178,7 +178,7 @@ private:
         std::array<int, 3> begin;
         for (int d = 0; d < 3; ++d) begin[d] = grid_.cells_between(d, footprint_.cell[d], load.place.cell[d]);
         for (int corner = 0; corner < 8; ++corner) {
-            const std::array<int, 3> at = {corner & 1, corner >> 1 & 1, corner >> 2 & 1};
+            const auto at = corner_of_cell(corner);
             const double hat = load.place.hat(at);
             const auto node =
                 static_cast<std::size_t>(footprint_.number(begin[0] + at[0], begin[1] + at[1], begin[2] + at[2]));

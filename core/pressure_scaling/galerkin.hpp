@@ -28,7 +28,7 @@ template <class Use>
 void for_each_hat(const Load& load, const HatGrid& grid, const std::vector<std::int32_t>& row_of, Use&& use)
 {
     for (int corner = 0; corner < 8; ++corner) {
-        const std::array<int, 3> at = {corner & 1, corner >> 1 & 1, corner >> 2 & 1};
+        const auto at = corner_of_cell(corner);
         const auto& cell = load.place.cell;
         use(row_of[grid.number({cell[0] + at[0], cell[1] + at[1], cell[2] + at[2]})], load.place.hat(at));
     }

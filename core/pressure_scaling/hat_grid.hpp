@@ -14,12 +14,18 @@ namespace talus
 /// A cell of the lattice, or a node: the lower corner of the cell of its number.
 using LatticeIndex = std::array<std::int32_t, 3>;
 
+/// The eight corners of a cell: 0 or 1 along each axis.
+inline std::array<int, 3> corner_of_cell(int number)
+{
+    return {number & 1, number >> 1 & 1, number >> 2 & 1};
+}
+
 /// Where a point lies among the nodes.
 struct HatPlace {
     LatticeIndex cell = {};
     Vec3 fraction = Vec3::Zero(); ///< of the cell's edges, in [0, 1]
 
-    /// φ of the node at this corner (0 or 1 along each axis) of the cell.
+    /// φ of the node at this corner of the cell.
     double hat(const std::array<int, 3>& corner) const
     {
         double product = 1.0;

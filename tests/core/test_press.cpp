@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr double d = 2 * standard_radius;
-const double step = 0.008 * std::sqrt(d / standard_gravity);
+const double step = automatic_step();
 
 /// Spheres at random places in a closed cube, or in the lower part of a higher box, whatever they overlap.
 World random_overlaps(int count, double edge, double height)

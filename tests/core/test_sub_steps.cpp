@@ -16,7 +16,7 @@ namespace
 
 constexpr double d = 2 * standard_radius;
 const double time_step = automatic_step();
-const double push_out_speed = 0.1 * std::sqrt(d * standard_gravity);
+const double push_out_speed = automatic_push_out_speed();
 
 ContactLaw law_of(double restitution, double friction = 0.0)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/region.hpp"
 #include "core/wall_contacts.hpp"
+#include "tests/support/mesh_cell.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -36,15 +37,8 @@ Mesh tessellated_floor(const std::string& diagonals)
     std::vector<Triangle> triangles;
     for (int i = 0; i + 1 < n; ++i)
         for (int j = 0; j + 1 < n; ++j) {
-            const int a = i * n + j, b = a + n, c = b + 1, d = a + 1;
-            const bool rising = diagonals == "rising" || (diagonals == "mixed" && (i + j) % 2 == 0);
-            if (rising) {
-                triangles.push_back({a, b, c});
-                triangles.push_back({c, d, a});
-            } else {
-                triangles.push_back({a, b, d});
-                triangles.push_back({c, d, b});
-            }
+            const int a = i * n + j, b = a + n;
+            test::add_cell(triangles, {a, b, b + 1, a + 1}, diagonals, i, j);
         }
     return make_mesh(vertices, triangles);
 }

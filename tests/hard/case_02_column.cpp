@@ -24,7 +24,7 @@ World column(int height, Stabilisation stabilisation, bool scaled)
     rough.friction = 0.5;
     World world = make_world(rough, {}, production_settings(stabilisation), automatic_step());
     world.model.solver.pressure_scaling = scaled;
-    world.model.solver.push_out_speed = 0.1 * std::sqrt(d * standard_gravity);
+    world.model.solver.push_out_speed = automatic_push_out_speed();
     world.add_plane(Vec3::Zero(), Vec3::UnitZ());
     for (const Vec3& inwards : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)})
         world.add_plane(-0.55 * d * inwards, inwards);

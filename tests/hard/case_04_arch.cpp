@@ -14,8 +14,8 @@ namespace
 {
 
 constexpr double d = 2 * standard_radius;
-const double h = 0.008 * std::sqrt(d / standard_gravity);
-const double push_out_speed = 0.1 * std::sqrt(d * standard_gravity);
+const double h = automatic_step();
+const double push_out_speed = automatic_push_out_speed();
 constexpr double pi = std::numbers::pi;
 
 constexpr int stones = 7;
@@ -25,8 +25,7 @@ constexpr double turn = pi / stones; ///< from stone to stone
 /// Seven spheres on a half-circle, each touching the next; the first and the last stand on the floor, the abutments.
 World arch(double friction, Stabilisation law, bool rotation)
 {
-    World world = make_world({.friction = friction}, production_settings(law), h);
-    world.model.solver.push_out_speed = push_out_speed;
+    World world = production_world({.friction = friction}, law);
     world.model.physics.spin = rotation && friction > 0;
     world.add_plane(Vec3::Zero(), Vec3::UnitZ());
     const double radius = standard_radius / std::sin(0.5 * turn);
@@ -80,16 +79,10 @@ ArchRun run_arch(double friction, Stabilisation law, bool rotation, int steps)
     return run;
 }
 
-const char* name_of(Stabilisation law)
-{
-    return law == Stabilisation::matched ? "matched" : "projected";
-}
-
 /// A sphere between two planes that rise at 90° − ψ from the horizontal and meet below it.
 World wedge(double half_angle, double friction, Stabilisation law)
 {
-    World world = make_world({.friction = friction}, production_settings(law), h);
-    world.model.solver.push_out_speed = push_out_speed;
+    World world = production_world({.friction = friction}, law);
     for (const double side : {-1.0, 1.0})
         world.add_plane(Vec3::Zero(), Vec3(side * std::cos(half_angle), 0, std::sin(half_angle)));
     world.add_sphere(standard_radius / std::sin(half_angle) * Vec3::UnitZ());
@@ -108,7 +101,7 @@ TEST_CASE("4 arch of seven spheres", "[hard]")
     const double critical = critical_friction();
     hard.tell("least friction of an arch that does not turn", critical);
     for (const auto law : {Stabilisation::projected, Stabilisation::matched}) {
-        const std::string name = std::string(name_of(law)) + ": ";
+        const std::string name = name_of(law) + ": ";
         for (const double share : {1.01, 1.1, 0.5 / critical}) {
             const ArchRun run = run_arch(share * critical, law, false, 100000);
             const std::string what =
@@ -137,7 +130,7 @@ TEST_CASE("4 sphere in a wedge", "[hard][quick]")
     // of it.
     HardCase hard("4 sphere in a wedge");
     for (const auto law : {Stabilisation::projected, Stabilisation::matched}) {
-        const std::string name = std::string(name_of(law)) + ": ";
+        const std::string name = name_of(law) + ": ";
         const bool compliant = law == Stabilisation::matched;
         double moved = 0.0, locked_speed = 0.0, expelled_least = infinity, expelled_most = 0.0, energy = 0.0;
         bool formula = true;

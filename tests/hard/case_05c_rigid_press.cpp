@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr double d = 2 * standard_radius;
-const double step = 0.008 * std::sqrt(d / standard_gravity);
+const double step = automatic_step();
 
 /// Goes a way at a speed, from a time on, and back again.
 WallMotion to_and_fro(double from, const Vec3& way, double speed)

@@ -14,8 +14,8 @@ TEST_CASE("6 two spheres at rest overlap by 30 %", "[hard][quick]")
     // law gives cap/(1 − Υ) with a few per cent more for the memory of the carried impulse.
     HardCase hard("6 two spheres at rest overlap by 30 %");
     constexpr double d = 2 * standard_radius;
-    const double cap = 0.1 * std::sqrt(d * standard_gravity);
-    World world = make_world({}, production_settings(Stabilisation::matched), 0.008 * std::sqrt(d / standard_gravity));
+    const double cap = automatic_push_out_speed();
+    World world = make_world({}, production_settings(Stabilisation::matched), automatic_step());
     world.model.gravity = Vec3::Zero();
     world.model.solver.push_out_speed = cap;
     world.add_sphere(Vec3(0.35 * d, 0, 0));

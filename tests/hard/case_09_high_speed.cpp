@@ -19,7 +19,7 @@ constexpr double step = 1e-3;      // s: a move of 10 d
 constexpr int places = 37;         // where in its way of a step the sphere is when it meets the wall
 constexpr double plate = 0.1;      // half the edge of the plates [m]
 constexpr double thickness = 1e-3; // m
-const double push_out_speed = 0.1 * std::sqrt(d * standard_gravity);
+const double push_out_speed = automatic_push_out_speed();
 
 /// A block, or a plate where it is flat, of triangles.
 Mesh block(const Vec3& min, const Vec3& max)
@@ -87,8 +87,7 @@ TEST_CASE("9 a fast sphere meets a thin wall", "[hard][quick]")
                     worst.speed_error = std::max(worst.speed_error, outcome.speed_error);
                     worst.sideways_error = std::max(worst.sideways_error, outcome.sideways_error);
                 }
-            const std::string which = std::string(e > 0 ? ", e = 1, " : ", e = 0, ") +
-                                      (stabilisation == Stabilisation::matched ? "matched" : "projected");
+            const std::string which = std::string(e > 0 ? ", e = 1, " : ", e = 0, ") + name_of(stabilisation);
             hard.above("lowest centre above the wall" + which + " [r]", worst.lowest / standard_radius, 0.85);
             hard.below("error of the speed away from it" + which + " [speed]", worst.speed_error,
                 e == 0 && stabilisation == Stabilisation::matched ? 0.038 : 1e-6);

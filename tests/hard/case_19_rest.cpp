@@ -104,9 +104,7 @@ TEST_CASE("19 no creep on an incline", "[hard]")
     constexpr double d = 2 * standard_radius, r = standard_radius, friction = 0.5;
     const double angle = std::atan(0.9 * friction);
     for (const auto law : {Stabilisation::matched, Stabilisation::projected}) {
-        World world =
-            make_world({.friction = friction}, production_settings(law), 0.008 * std::sqrt(d / standard_gravity));
-        world.model.solver.push_out_speed = 0.1 * std::sqrt(d * standard_gravity);
+        World world = production_world({.friction = friction}, law);
         world.model.physics.spin = false;
         world.model.gravity = standard_gravity * Vec3(std::sin(angle), 0, -std::cos(angle));
         world.add_plane(Vec3::Zero(), Vec3::UnitZ());
@@ -121,7 +119,7 @@ TEST_CASE("19 no creep on an incline", "[hard]")
         double alone = (world.position(0) - before.position(0)).norm() / d, pyramid = 0.0;
         for (int id = 1; id < 5; ++id)
             pyramid = std::max(pyramid, (world.position(id) - before.position(id)).norm() / d);
-        const std::string name = law == Stabilisation::matched ? "matched: " : "projected: ";
+        const std::string name = name_of(law) + ": ";
         hard.below(name + "creep of a sphere in 1e5 steps [d]", alone, 1e-9);
         hard.below(name + "creep of a pyramid in 1e5 steps [d]", pyramid, 1e-9);
     }

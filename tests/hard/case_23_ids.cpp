@@ -68,7 +68,7 @@ TEST_CASE("23 permuted ids of two spheres", "[hard][quick]")
             const ContactLaw contact{.friction = 2 * uniform(random),
                 .restitution = trial % 3 ? uniform(random) : 0.0,
                 .rolling_friction = trial % 2 ? 0.1 * uniform(random) : 0.0};
-            const double h = 0.008 * std::sqrt(d / standard_gravity);
+            const double h = automatic_step();
             World worlds[2] = {
                 make_world(contact, production_settings(law), h), make_world(contact, production_settings(law), h)};
             const double small = standard_radius * (0.1 + 0.9 * uniform(random));
@@ -99,7 +99,7 @@ TEST_CASE("23 permuted ids of two spheres", "[hard][quick]")
                     standard_radius * (worlds[0].angular_velocity(id) - worlds[1].angular_velocity(1 - id)).norm());
             }
         }
-        const std::string name = law == Stabilisation::matched ? "matched: " : "projected: ";
+        const std::string name = name_of(law) + ": ";
         hard.above(name + "pairs that met", met, 250);
         hard.below(name + "places [d]", position, 1e-12);
         hard.below(name + "velocities of 1 m/s [m/s]", velocity, 1e-12);

@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr double d = 2 * standard_radius;
-const double h = 0.008 * std::sqrt(d / standard_gravity);
+const double h = automatic_step();
 constexpr double pi = std::numbers::pi;
 
 /// Of a drum, half full, that turns about y; periodic along y.
@@ -115,7 +115,7 @@ TEST_CASE("26 shaken box and turning drum", "[hard]")
     // frame than they acted in, do not balance.
     HardCase hard("26 shaken box and turning drum");
     for (const auto law : {Stabilisation::matched, Stabilisation::projected}) {
-        const std::string name = law == Stabilisation::matched ? "matched, " : "projected, ";
+        const std::string name = name_of(law) + ", ";
         for (const bool turning : {true, false}) {
             const Balance balance = turning ? run(drum(law), 1.0, 20.0) : run(shaken_box(law), 0.4, 8.0);
             const std::string scene = name + (turning ? "drum: " : "box: ");

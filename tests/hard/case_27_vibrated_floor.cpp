@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr double d = 2 * standard_radius;
-const double h = 0.008 * std::sqrt(d / standard_gravity);
+const double h = automatic_step();
 constexpr double pi = std::numbers::pi;
 constexpr double frequency = 10.0; ///< a step is 0.9 degrees of a period
 constexpr double omega = 2 * pi * frequency;
@@ -28,8 +28,7 @@ struct Ride {
 /// A column of spheres on a floor that has been shaken with A ω² = gamma g for a while; they go with it at first.
 Ride ride(int spheres, double gamma, Stabilisation law, double periods)
 {
-    World world = make_world({.friction = 0.5}, production_settings(law), h);
-    world.model.solver.push_out_speed = 0.1 * std::sqrt(d * standard_gravity);
+    World world = production_world({.friction = 0.5}, law);
     const double amplitude = gamma * standard_gravity / (omega * omega);
     world.add_wall(Plane{}, {Shaking{{}, amplitude * Vec3::UnitZ(), frequency}});
     world.state.steps = static_cast<std::int64_t>(std::round(1.0 / (frequency * h)));
@@ -64,8 +63,7 @@ TEST_CASE("27 vibrated floor", "[hard][quick]")
     const double expected = std::asin(1.0 / 1.1) * 180.0 / pi;
     for (const auto law : {Stabilisation::matched, Stabilisation::projected})
         for (const int spheres : {1, 5}) {
-            const std::string name = std::string(law == Stabilisation::matched ? "matched" : "projected") +
-                                     (spheres == 1 ? ", a sphere: " : ", a column of five: ");
+            const std::string name = name_of(law) + (spheres == 1 ? ", a sphere: " : ", a column of five: ");
             const Ride held = ride(spheres, 0.9, law, 20), thrown = ride(spheres, 1.1, law, 1);
             hard.below(name + "steps without load at 0.9 g in 20 periods", held.free_steps, 0.5);
             hard.between(name + "least load there [weight]", held.least_load, 0.09, 0.11);

@@ -57,7 +57,7 @@ TEST_CASE("28 degenerate scenes", "[hard][quick]")
     // inverse of a mass of zero are where programs of this kind stop with a fault, or go on with what is not a number.
     HardCase hard("28 degenerate scenes");
     for (const auto law : {Stabilisation::matched, Stabilisation::projected}) {
-        const std::string name = law == Stabilisation::matched ? "matched: " : "projected: ";
+        const std::string name = name_of(law) + ": ";
         const double h = 2.5e-4;
         World empty = make_world({.friction = 0.5, .rolling_friction = 0.1}, production_settings(law), h);
         empty.add_plane(Vec3::Zero(), Vec3::UnitZ());

@@ -21,16 +21,11 @@ namespace
 
 constexpr double d = 2 * standard_radius;
 constexpr double r = standard_radius;
-const double h = 0.008 * std::sqrt(d / standard_gravity);
+const double h = automatic_step();
 constexpr int steps = 10000;
 
 const std::vector<Vec3> ways = {Vec3(1e6 * d, 0, 0), Vec3(0.6e6 * d, -0.7e6 * d, 0.38e6 * d)};
 const std::vector<Stabilisation> laws = {Stabilisation::matched, Stabilisation::projected};
-
-std::string name_of(Stabilisation law)
-{
-    return law == Stabilisation::matched ? "matched" : "projected";
-}
 
 Shape mesh_floor(const Vec3& corner, double length)
 {
@@ -65,8 +60,7 @@ void add_pyramid(World& world, const Vec3& place)
 /// is.
 World playground(const Vec3& place, Stabilisation law)
 {
-    World world = make_world({.friction = 0.5, .restitution = 0.5}, production_settings(law), h);
-    world.model.solver.push_out_speed = 0.1 * std::sqrt(d * standard_gravity);
+    World world = production_world({.friction = 0.5, .restitution = 0.5}, law);
     world.model.world = {place - Vec3::Constant(5.0), place + Vec3::Constant(5.0)};
     world.model.corner = place;
     const double touching = r - 1e-5 * d;
@@ -187,8 +181,7 @@ TEST_CASE("30 border of a periodic cell of 2e6 diameters", "[hard][quick]")
     const Vec3 half_cell(1e6 * d, 0, 0);
     for (const auto law : laws) {
         const auto open = [&](const Vec3& place) {
-            World world = make_world({.friction = 0.5, .restitution = 0.5}, production_settings(law), h);
-            world.model.solver.push_out_speed = 0.1 * std::sqrt(d * standard_gravity);
+            World world = production_world({.friction = 0.5, .restitution = 0.5}, law);
             world.model.periodicity = {-half_cell, Vec3(2e6 * d, infinity, infinity)};
             world.add_plane(Vec3::Zero(), Vec3::UnitZ());
             const double touching = r - 1e-5 * d;

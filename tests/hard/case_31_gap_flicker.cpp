@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr double d = 2 * standard_radius;
-const double h = 0.008 * std::sqrt(d / standard_gravity);
+const double h = automatic_step();
 
 struct Flicker {
     double deviation = 0.0;   ///< of the impulse on the sphere [m g h]
@@ -30,7 +30,7 @@ template <class Noise> Flicker flicker(double start, Stabilisation law, Noise&& 
 {
     constexpr int settle = 200;
     World world = sphere_on_plane({.friction = 0.5}, production_settings(law), h);
-    world.model.solver.push_out_speed = 0.1 * std::sqrt(d * standard_gravity);
+    world.model.solver.push_out_speed = automatic_push_out_speed();
     world.state.position[0].z() += start;
     const double weight = world.mass() * standard_gravity;
     double sum = 0.0, squares = 0.0;
@@ -65,7 +65,7 @@ TEST_CASE("31 gap flicker", "[hard][quick]")
     HardCase hard("31 gap flicker");
     const double fall = standard_gravity * h * h; // of a sphere in its first step
     for (const auto law : {Stabilisation::matched, Stabilisation::projected}) {
-        const std::string name = law == Stabilisation::matched ? "matched: " : "projected: ";
+        const std::string name = name_of(law) + ": ";
         double deviation = 0.0, error = 0.0;
         bool persists = true;
         for (const double start : {-10 * fall, -fall, -1e-15, 0.0, 1e-15, 0.5 * fall, fall, 1e-3 * d}) {

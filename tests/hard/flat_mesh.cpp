@@ -2,6 +2,7 @@
 #include "flat_mesh.hpp"
 
 #include "core/region.hpp"
+#include "tests/support/mesh_cell.hpp"
 
 #include <cmath>
 #include <map>
@@ -43,14 +44,8 @@ Mesh make_flat_mesh(const FlatMesh& strip)
         for (int j = -reach; j < reach; ++j) {
             const Vec3 middle = place(i + 0.5, j + 0.5);
             if (std::abs(middle.x()) > 0.5 * strip.length || std::abs(middle.y()) > 0.5 * strip.width) continue;
-            const auto p = corner(i, j), q = corner(i + 1, j), r = corner(i + 1, j + 1), t = corner(i, j + 1);
-            if (strip.diagonals == "rising" || (strip.diagonals == "mixed" && (i + j) % 2 == 0)) {
-                triangles.push_back({p, q, r});
-                triangles.push_back({r, t, p});
-            } else {
-                triangles.push_back({p, q, t});
-                triangles.push_back({r, t, q});
-            }
+            add_cell(triangles, {corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)},
+                strip.diagonals, i, j);
         }
     return make_mesh(vertices, triangles);
 }

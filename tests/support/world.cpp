@@ -140,6 +140,11 @@ SolverSettings production_settings(Stabilisation stabilisation)
     return solver;
 }
 
+std::string name_of(Stabilisation stabilisation)
+{
+    return stabilisation == Stabilisation::matched ? "matched" : "projected";
+}
+
 double automatic_step(double diameter)
 {
     return 0.008 * std::sqrt(diameter / standard_gravity);

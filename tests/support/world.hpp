@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -80,6 +81,9 @@ SolverSettings matched_settings(double tolerance = 1e-13, int max_sweeps = 20000
 
 /// What a run of this law gets that asks for nothing.
 SolverSettings production_settings(Stabilisation stabilisation);
+
+/// As a scene names the law.
+std::string name_of(Stabilisation stabilisation);
 
 /// h = 0.008 √(d/g), what a scene gets whose smallest spheres have this diameter.
 double automatic_step(double diameter = 2 * standard_radius);
