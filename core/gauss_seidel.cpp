@@ -62,9 +62,25 @@ template <class R> double apply_warm_start(ContactNetwork& network, Motion* moti
     return sums.total().size;
 }
 
+/// Every contact once. Called by all threads of the crew.
 template <class R>
-SolveReport solve(
-    ContactNetwork& network, PistonGroup& pistons, Motion* motion, const SolverSettings& solver, double warm_size)
+void sweep(TileCrew& crew, ContactNetwork& network, PistonGroup& pistons, Motion* motion, PartialSums& sums)
+{
+    crew.color_by_color([&](std::size_t tile) { sums.of_tile[tile] = relax_tile<R, true>(network, tile, motion); });
+    if (!pistons.empty()) crew.by_one([&] { sums.of_pistons = pistons.sweep(motion); });
+}
+
+template <class R> void sweep_times(int count, ContactNetwork& network, PistonGroup& pistons, Motion* motion)
+{
+    PartialSums unused(network.tiles.count());
+    with_tile_crew(network.tiles, [&](TileCrew& crew) {
+        for (int k = 0; k < count; ++k) sweep<R>(crew, network, pistons, motion, unused);
+    });
+}
+
+template <class R>
+SolveReport solve(ContactNetwork& network, PistonGroup& pistons, Motion* motion, const SolverSettings& solver,
+    double warm_size, int sweeps_made)
 {
     const auto tiles = network.tiles.count();
     const auto residual = [&](const SweepSums& sums) {
@@ -77,13 +93,11 @@ SolveReport solve(
     SolveReport report;
     with_tile_crew(network.tiles, [&](TileCrew& crew) {
         // Every thread goes through the same loop with the same numbers.
-        int sweeps = 0;
+        int sweeps = sweeps_made;
         double change = infinity, error = infinity;
         while (error > solver.tolerance && sweeps < solver.max_sweeps) {
             auto& sums = swept[static_cast<std::size_t>(sweeps % 2)];
-            crew.color_by_color(
-                [&](std::size_t tile) { sums.of_tile[tile] = relax_tile<R, true>(network, tile, motion); });
-            if (!pistons.empty()) crew.by_one([&] { sums.of_pistons = pistons.sweep(motion); });
+            sweep<R>(crew, network, pistons, motion, sums);
             ++sweeps;
             // ε after a sweep is about what the next sweep would change: as much less as this one changed less than the
             // last.
@@ -112,11 +126,18 @@ double apply_warm_start(
     return of_tiles + pistons.warm_start(motion.data());
 }
 
-SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
-    const ModelledPhysics& physics, const SolverSettings& solver, double warm_size)
+void sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
+    const ModelledPhysics& physics)
 {
-    return with_rows(
-        physics, [&](auto rows) { return solve<decltype(rows)>(network, pistons, motion.data(), solver, warm_size); });
+    with_rows(physics, [&](auto rows) { sweep_times<decltype(rows)>(count, network, pistons, motion.data()); });
+}
+
+SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
+    const ModelledPhysics& physics, const SolverSettings& solver, double warm_size, int sweeps_made)
+{
+    return with_rows(physics, [&](auto rows) {
+        return solve<decltype(rows)>(network, pistons, motion.data(), solver, warm_size, sweeps_made);
+    });
 }
 
 } // namespace talus

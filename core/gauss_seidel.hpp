@@ -21,6 +21,10 @@ struct SolveReport {
 double apply_warm_start(
     ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion, const ModelledPhysics& physics);
 
+/// So many sweeps of projected Gauss–Seidel, as below, whatever the residual.
+void sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
+    const ModelledPhysics& physics);
+
 /// Projected Gauss–Seidel (Algorithm 3.1 of the note) on the contacts of the network: sweeps tile colour by tile
 /// colour, the tiles of one colour in parallel, and the pistons after them, until
 ///
@@ -29,7 +33,8 @@ double apply_warm_start(
 /// but at least min_sweeps and at most max_sweeps. The changes made by the sweeps tell when ε may be small enough; then
 /// a pass that changes nothing measures ε itself, and the sweeps go on if it is not.
 /// @param warm_size Σ W|λ⁰|² of the warm start
+/// @param sweeps_made sweeps of this step that were made before, and count
 SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
-    const ModelledPhysics& physics, const SolverSettings& solver, double warm_size);
+    const ModelledPhysics& physics, const SolverSettings& solver, double warm_size, int sweeps_made = 0);
 
 } // namespace talus

@@ -178,12 +178,18 @@ std::optional<StepReport> advance_unless_faster(
     // The impulse of an impact does not grow with the step: it must not loosen the measure of the others.
     if (begun.impulse_scale > 1.0) warm_size /= begun.impulse_scale * begun.impulse_scale;
 
-    // Where the load has changed, the pressure changes with it, through the whole bed at once: λ⁰ ← θ λ⁰.
-    if (model.solver.pressure_scaling) scale_pressure(contacts, pistons, state, model);
+    // Where the load has changed, the pressure changes with it, through the whole bed at once: λ ← θ λ. First what is
+    // local must be out of the way: contacts that open, and impacts.
+    enter(Phase::sweeps);
+    int sweeps = 0;
+    if (model.solver.pressure_scaling) {
+        sweeps = std::min(sweeps_before_scaling, model.solver.max_sweeps - 1);
+        sweep_contacts(sweeps, contacts, pistons, state.motion, model.physics);
+        scale_pressure(contacts, pistons, state, model);
+    }
 
     // The contact impulses: every contact in turn until all laws hold.
-    enter(Phase::sweeps);
-    const auto solve = solve_contacts(contacts, pistons, state.motion, model.physics, model.solver, warm_size);
+    const auto solve = solve_contacts(contacts, pistons, state.motion, model.physics, model.solver, warm_size, sweeps);
     pistons.store(contacts, state);
     if (fastest_of(state, fastest) > fastest) {
         std::tie(state.motion, state.pistons) = before;

@@ -15,6 +15,10 @@ struct ScalingReport {
     double largest = 0.0; ///< max |t α|: 0.1 is a pressure corrected by a tenth
 };
 
+/// In a step. The power λ·y of impacts and of contacts about to open is no lack of pressure; it goes first. Right after
+/// the warm start, the scaling made a flow out of a hopper overlap nine times as much, in half as many sweeps again.
+constexpr int sweeps_before_scaling = 2;
+
 /// Pressure scaling: the impulses of all contacts are multiplied by a smooth positive field, README (11)
 ///
 ///   λ ← θ λ,  θ = 1 + t Σ_s α_s φ_s(x_contact),   v ← v + M⁻¹ Gᵀ Δλ
@@ -26,7 +30,8 @@ struct ScalingReport {
 /// α solves A α = −e, A_st = Σ_bodies F_s·M⁻¹F_t with F_s the impulses on a body weighted by φ_s, and e_s = Σ φ_s λ·y
 /// over normal and sticking rows; it is held in [−0.8, 4]; t is the exact minimum along α of the energy ½ v·Mv − λ·q,
 /// at most 1, and where the energy would rise, nothing is done. A solution is left as it is, for λ·y = 0 at each of its
-/// contacts. To be called in every step, after the warm start; every few steps only, it makes forces swing.
+/// contacts. To be called in every step, after sweeps_before_scaling sweeps; every few steps only, it makes forces
+/// swing.
 ScalingReport scale_pressure(ContactNetwork& network, PistonGroup& pistons, State& state, const Model& model);
 
 } // namespace talus

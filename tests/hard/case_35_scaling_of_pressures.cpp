@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hard_case.hpp"
+#include "loaded_bed.hpp"
+
+#include "tests/validation/run_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace talus;
+using namespace talus::test;
+
+namespace
+{
+
+struct Flow {
+    double overlap = 0.0;        ///< mean over contacts and steps from `from` on [d]
+    double sweeps = 0.0;         ///< mean, likewise
+    double kinetic_energy = 0.0; ///< mean, likewise [J]
+};
+
+/// A scene under `projected`, watched over the second part of its time.
+Flow watch(const std::string& scene, std::vector<std::string> overrides, bool scaled, double from, double to)
+{
+    overrides.push_back("solver.stabilisation=projected");
+    overrides.push_back(std::string("solver.pressure_scaling=") + (scaled ? "true" : "false"));
+    auto s = open_scene(scene, overrides);
+    run_until(s, from);
+    Flow flow;
+    int steps = 0;
+    for (; s.state.time < to; ++steps) {
+        const auto report = step(s);
+        flow.overlap += report.mean_overlap / s.model.mean_diameter;
+        flow.sweeps += report.sweeps;
+        flow.kinetic_energy += report.kinetic_energy;
+    }
+    flow.overlap /= steps;
+    flow.sweeps /= steps;
+    flow.kinetic_energy /= steps;
+    return flow;
+}
+
+/// Asks of the scaled flow that it overlaps no more than the other.
+void compare(HardCase& hard, const std::string& name, const std::string& scene,
+    const std::vector<std::string>& overrides, double from, double to)
+{
+    const Flow scaled = watch(scene, overrides, true, from, to), plain = watch(scene, overrides, false, from, to);
+    hard.below(name + ": mean overlap [that of plain sweeps]", scaled.overlap / plain.overlap, 2);
+    hard.below(name + ": sweeps [plain]", scaled.sweeps / plain.sweeps, 1.1);
+    hard.between(name + ": kinetic energy [plain]", scaled.kinetic_energy / plain.kinetic_energy, 0.9, 1.1);
+    hard.tell(name + ", plain: mean overlap [d]", plain.overlap);
+    hard.tell(name + ", plain: sweeps", plain.sweeps);
+}
+
+/// How far the centre of mass sinks or rises in so many steps [d].
+double way_at_rest(const Simulation& bed, int steps)
+{
+    State state = bed.state;
+    ContactNetwork contacts = bed.contacts;
+    for (int k = 0; k < steps; ++k) advance(state, contacts, bed.model);
+    return std::abs(center_height(state) - center_height(bed.state)) / bed.model.mean_diameter;
+}
+
+/// The mean force-profile error of steps 100 to 200 after the load, where only every n-th step scales.
+double mean_error(const Simulation& bed, int every)
+{
+    LoadedBed loaded(bed);
+    double sum = 0.0;
+    for (int k = 0; k < 200; ++k) {
+        loaded.model.solver.pressure_scaling = k % every == 0;
+        loaded.step();
+        if (k >= 100) sum += loaded.profile_error() / 100;
+    }
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("35 scaling of pressures in flows", "[hard]")
+{
+    // Where contacts open, impacts happen and friction slides, pressures have no pattern that keeps: there the
+    // correction must do no harm. A hopper that empties, a flow down a slope along periodic axes, a bed on a floor that
+    // shakes: with scaling and without.
+    HardCase hard("35 scaling of pressures in flows");
+    compare(hard, "hopper", "hopper", {"fill.0.count=2500", "wall.gate.remove_at=0.4"}, 0.55, 1.0);
+    compare(hard, "slope of 24 degrees", "incline", {}, 1.0, 1.5);
+    compare(hard, "vibrated bed", "vibrated_bed", {}, 0.5, 1.0);
+}
+
+TEST_CASE("35 scaling of pressures at rest", "[hard]")
+{
+    // A bed at rest is left at rest. Two columns stand side by side, closer than a cell of the grid: a load on one is
+    // carried down in it alone. And why there is a correction in every step: its impulses hold the momentum of the
+    // stop, and act again as the next warm start, so that corrections now and then make the floor's force swing.
+    HardCase hard("35 scaling of pressures at rest");
+    auto bed = bed_at_rest(30);
+    run_until(bed, 4.0);
+    hard.below("way of the centre of mass in 1000 steps at rest [d]", way_at_rest(bed, 1000), 1e-5);
+    hard.below(
+        "load on 30 layers, scaled in every step: mean profile error of steps 100 to 200", mean_error(bed, 1), 0.02);
+    hard.tell("in every fifth", mean_error(bed, 5));
+    hard.tell("in none", mean_error(bed, 1000000));
+
+    auto two = open_scene("two_tubes");
+    run_until(two, 1.3);
+    LoadedBed left(two, 0.0445), right(two, 0.0445);
+    right.model.solver.pressure_scaling = false;
+    std::vector<double> scaled, plain;
+    for (int k = 0; k < 3000; ++k) {
+        left.step();
+        right.step();
+        scaled.push_back(left.profile_error());
+        plain.push_back(right.profile_error());
+    }
+    hard.below("two columns, one loaded: steps until its profile is within 5 %",
+        static_cast<double>(steps_until_carried(scaled)), 30);
+    hard.tell("without scaling", static_cast<double>(steps_until_carried(plain)));
+}
