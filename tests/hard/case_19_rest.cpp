@@ -91,7 +91,7 @@ TEST_CASE("19 rest of a pile of 1000", "[hard]")
         hard.below(law + ": drift of the centre of mass [d]", found.center, 1e-4);
         hard.below(law + ": its way down, loose beads included [d]", std::abs(found.height), 1e-4);
         hard.below(law + ": drift of a bead [d]", found.largest, 1e-2);
-        hard.tell(law + ": beads on one or two contacts", found.loose_count);
+        hard.below(law + ": beads on one or two contacts", found.loose_count, 250);
         hard.tell(law + ": drift of one of these [d]", found.loose);
     }
 }
@@ -115,12 +115,23 @@ TEST_CASE("19 no creep on an incline", "[hard]")
         world.add_sphere(Vec3(0, 0, 2.6 * r));
         world.step(2000);
         const World before = world;
-        world.step(steps);
-        double alone = (world.position(0) - before.position(0)).norm() / d, pyramid = 0.0;
-        for (int id = 1; id < 5; ++id)
-            pyramid = std::max(pyramid, (world.position(id) - before.position(id)).norm() / d);
+        const auto creep = [&](int first, int last) {
+            double largest = 0.0;
+            for (int id = first; id <= last; ++id)
+                largest = std::max(largest, (world.position(id) - before.position(id)).norm() / d);
+            return largest;
+        };
         const std::string name = name_of(law) + ": ";
-        hard.below(name + "creep of a sphere in 1e5 steps [d]", alone, 1e-9);
-        hard.below(name + "creep of a pyramid in 1e5 steps [d]", pyramid, 1e-9);
+        world.step(steps);
+        hard.below(name + "creep of a sphere in 1e5 steps [d]", creep(0, 0), 1e-9);
+        hard.below(name + "creep of a pyramid in 1e5 steps [d]", creep(1, 4), 1e-9);
+        hard.above(name + "height of its top [d]", world.position(4).z() / d, 1.0);
+        world = before;
+        for (int k = 0; k < steps / 10; ++k) {
+            world.contacts = {};
+            world.step();
+        }
+        hard.tell(name + "no warm start: creep of a sphere in 1e4 steps [d]", creep(0, 0));
+        hard.tell(name + "no warm start: creep of a pyramid in 1e4 steps [d]", creep(1, 4));
     }
 }

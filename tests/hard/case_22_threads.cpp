@@ -45,13 +45,19 @@ TEST_CASE("22 thread counts", "[hard]")
     const std::vector<Scenario> scenarios = {
         {"hopper", 1000, {"fill.0.count=3000", "wall.gate.remove_at=0.15"}},
         {"hopper", 1000, {"fill.0.count=3000", "wall.gate.remove_at=0.15", "solver.stabilisation=projected"}},
+        {"hopper", 1000,
+            {"fill.0.count=3000", "wall.gate.remove_at=0.15", "solver.stabilisation=projected",
+                "solver.pressure_scaling=true"}},
         {"drum", 1000, {"fill.0.count=2000"}},
     };
     for (const auto& [scene, steps, overrides] : scenarios) {
         const std::string one = run(1, scene, steps, overrides);
         for (const int threads : {2, 4, 8, 16})
-            hard.holds(scene + (overrides.size() > 2 ? ", projected: " : ": ") + std::to_string(threads) +
-                           " threads, the bits of one",
+            hard.holds(scene +
+                           (overrides.size() > 3      ? ", projected and scaled: "
+                               : overrides.size() > 2 ? ", projected: "
+                                                      : ": ") +
+                           std::to_string(threads) + " threads, the bits of one",
                 run(threads, scene, steps, overrides) == one);
     }
 }

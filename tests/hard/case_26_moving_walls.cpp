@@ -16,10 +16,10 @@ constexpr double d = 2 * standard_radius;
 const double h = automatic_step();
 constexpr double pi = std::numbers::pi;
 
-/// Of a drum, half full, that turns about y; periodic along y.
+/// Of a drum, less than half full, that turns about y; periodic along y.
 World drum(Stabilisation law)
 {
-    World world = make_world({.friction = 0.5, .restitution = 0.3}, production_settings(law), h);
+    World world = production_world({.friction = 0.5, .restitution = 0.3}, law);
     world.model.periodicity = {Vec3::Zero(), Vec3(infinity, 4 * d, infinity)};
     world.add_wall(
         Cylinder{Vec3::Zero(), Vec3::UnitY(), 5 * d, 4 * d}, {Turning{{}, Vec3::Zero(), Vec3::UnitY(), 3.0}});
@@ -34,7 +34,7 @@ World drum(Stabilisation law)
 /// Of a box that is shaken up and down, and less to the side, with three times gravity.
 World shaken_box(Stabilisation law)
 {
-    World world = make_world({.friction = 0.5, .restitution = 0.3}, production_settings(law), h);
+    World world = production_world({.friction = 0.5, .restitution = 0.3}, law);
     constexpr double frequency = 25.0;
     const double amplitude = 3.0 * standard_gravity / std::pow(2 * pi * frequency, 2);
     world.add_wall(box_panels({Vec3::Zero(), 4.2 * d * Vec3(1, 1, 10)}, {}),

@@ -27,9 +27,10 @@ double mass(const Simulation& simulation)
 }
 
 struct Janssen {
-    double length = 0.0; ///< λ_J [m]
-    double misfit = 0.0; ///< rms of the vertical stress less the law / the stress at saturation
-    double depth = 0.0;  ///< of the lowest layer's middle [λ_J]
+    double length = 0.0;     ///< λ_J [m]
+    double misfit = 0.0;     ///< rms of the vertical stress less the law / the stress at saturation
+    double depth = 0.0;      ///< of the lowest layer's middle [λ_J]
+    double floor_load = 0.0; ///< by the law [weight]
 };
 
 /// σ_zz = ρ g λ (1 − exp(−z/λ)) under the surface, with the bulk density ρ as measured: λ by least squares.
@@ -48,7 +49,8 @@ Janssen fit(const Simulation& simulation, double radius)
     const std::size_t full = height.size();
     packing /= static_cast<double>(full);
     const double bulk = packing * simulation.model.materials.list[0].density;
-    const double surface = mass(simulation) / (bulk * std::numbers::pi * radius * radius);
+    // The floor is on its way down from -0.005 to -0.01 m while the layers are measured.
+    const double filled = mass(simulation) / (bulk * std::numbers::pi * radius * radius), surface = filled - 0.0075;
     const auto law = [&](double z, double length) {
         return bulk * gravity * length * (1 - std::exp((z - surface) / length));
     };
@@ -58,11 +60,12 @@ Janssen fit(const Simulation& simulation, double radius)
         return std::sqrt(squares / static_cast<double>(full)) / (bulk * gravity * length);
     };
     const auto squares = [&](double length) { return misfit(length) * length; };
-    Janssen best{0.01, 0.0, 0.0};
+    Janssen best{0.01};
     for (double length = 0.01; length < 2.0; length *= 1.002)
         if (squares(length) < squares(best.length)) best.length = length;
     best.misfit = misfit(best.length);
     best.depth = (surface - height[0]) / best.length;
+    best.floor_load = best.length * (1 - std::exp(-filled / best.length)) / filled;
     return best;
 }
 
@@ -82,7 +85,9 @@ Janssen silo(HardCase& hard, const std::string& law, double radius)
     run_until(s, 1.5);
     const Janssen janssen = fit(s, radius);
     const std::string name = law + ", D = " + std::to_string(static_cast<int>(std::round(200 * radius))) + " d: ";
-    hard.tell(name + "load of the floor [weight]", -result(s, "floor", "force_z").value / (mass(s) * gravity));
+    const double floor_load = -result(s, "floor", "force_z").value / (mass(s) * gravity);
+    hard.tell(name + "load of the floor [weight]", floor_load);
+    hard.between(name + "load of the floor [Janssen's with this lambda_J]", floor_load / janssen.floor_load, 0.9, 1.1);
     hard.above(name + "depth of the lowest layer [lambda_J]", janssen.depth, 2.5);
     hard.below(name + "rms distance of the stress from Janssen's law [saturation]", janssen.misfit, 0.05);
     hard.tell(name + "lambda_J [D]", janssen.length / (2 * radius));

@@ -61,17 +61,17 @@ double way_at_rest(const Simulation& bed, int steps)
 {
     State state = bed.state;
     ContactNetwork contacts = bed.contacts;
-    for (int k = 0; k < steps; ++k) advance(state, contacts, bed.model);
+    for (int k = 0; k < steps; ++k) make_step(state, contacts, bed.model);
     return std::abs(center_height(state) - center_height(bed.state)) / bed.model.mean_diameter;
 }
 
-/// The mean force-profile error of steps 100 to 200 after the load, where only every n-th step scales.
+/// The mean force-profile error of steps 100 to 200 after the load, where only every n-th step scales; 0: none.
 double mean_error(const Simulation& bed, int every)
 {
     LoadedBed loaded(bed);
     double sum = 0.0;
     for (int k = 0; k < 200; ++k) {
-        loaded.model.solver.pressure_scaling = k % every == 0;
+        loaded.model.solver.pressure_scaling = every > 0 && k % every == 0;
         loaded.step();
         if (k >= 100) sum += loaded.profile_error() / 100;
     }
@@ -84,10 +84,11 @@ TEST_CASE("35 scaling of pressures in flows", "[hard]")
 {
     // Where contacts open, impacts happen and friction slides, pressures have no pattern that keeps: there the
     // correction must do no harm. A hopper that empties, a flow down a slope along periodic axes, a bed on a floor that
-    // shakes: with scaling and without.
+    // shakes: with scaling and without. Overlap may be somewhat more: the correction takes out long waves, so at the
+    // same residual more of what is left are contacts that close.
     HardCase hard("35 scaling of pressures in flows");
     compare(hard, "hopper", "hopper", {"fill.0.count=2500", "wall.gate.remove_at=0.4"}, 0.55, 1.0);
-    compare(hard, "slope of 24 degrees", "incline", {}, 1.0, 1.5);
+    compare(hard, "slope of 30 degrees", "incline", {"world.gravity=[4.905, 0, -8.496]"}, 1.0, 1.5);
     compare(hard, "vibrated bed", "vibrated_bed", {}, 0.5, 1.0);
 }
 
@@ -103,7 +104,7 @@ TEST_CASE("35 scaling of pressures at rest", "[hard]")
     hard.below(
         "load on 30 layers, scaled in every step: mean profile error of steps 100 to 200", mean_error(bed, 1), 0.02);
     hard.tell("in every fifth", mean_error(bed, 5));
-    hard.tell("in none", mean_error(bed, 1000000));
+    hard.tell("in none", mean_error(bed, 0));
 
     auto two = open_scene("two_tubes");
     run_until(two, 1.3);

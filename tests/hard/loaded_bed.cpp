@@ -67,7 +67,7 @@ StepReport LoadedBed::step()
         Motion& m = state_.motion[static_cast<std::size_t>(i)];
         m.velocity.z() -= h * 0.25 * weight_ / grains_per_layer * m.inverse_mass;
     }
-    return advance(state_, contacts_, model);
+    return make_step(state_, contacts_, model);
 }
 
 double LoadedBed::profile_error() const

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/time_step.hpp"
+#include "core/sub_steps.hpp"
 #include "scenarios/simulation.hpp"
 
 #include <cstddef>

@@ -25,6 +25,17 @@ def case_names(program):
     return [line.strip() for line in listing.splitlines() if line.strip()]
 
 
+def checksum_of(program):
+    """Of the program, of the one that some cases run, and of all scenes and meshes that cases read."""
+    root = pathlib.Path(__file__).resolve().parents[2]
+    folders = [root / "scenarios", root / "tests/hard/scenes", root / "tests/validation/scenes"]
+    scenes = [path for folder in folders for path in sorted(folder.iterdir()) if path.suffix in {".toml", ".stl", ".vtu"}]
+    digest = hashlib.sha256()
+    for path in [program, program.resolve().parent / "talus", *scenes]:
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
 def by_number(name):
     return int(re.match(r"\d+", name).group()), name
 
@@ -41,6 +52,8 @@ def run_case(program, results, name, checksum):
         done = subprocess.run([program, name.replace(",", "\\,").replace("[", "\\[")], env=environment, stdout=log,
                               stderr=subprocess.STDOUT)
     rows = rows_of(table) if table.exists() else []
+    if not rows:
+        rows.append([name, "has results", f"exit code {done.returncode}", "FAILED", "0"])
     if done.returncode and all(row[3] != "FAILED" for row in rows):
         rows.append([name, "comes to its end", f"exit code {done.returncode}", "FAILED", "0"])
     else:
@@ -80,7 +93,7 @@ def main():
     results = arguments.results.resolve()
     results.mkdir(parents=True, exist_ok=True)
     program = str(arguments.program.resolve())
-    checksum = hashlib.sha256(arguments.program.read_bytes()).hexdigest()
+    checksum = checksum_of(arguments.program)
     names = sorted(case_names(program), key=by_number)
     if arguments.words:
         names = [name for name in names if any(word in name for word in arguments.words)]

@@ -92,7 +92,12 @@ std::size_t World::update_candidates()
 
 void World::step(int count)
 {
-    for (int i = 0; i < count; ++i) report = make_step(state, contacts, model);
+    for (int i = 0; i < count; ++i) {
+        report = make_step(state, contacts, model);
+        // Largest errors are kept with std::max, which passes over what is not a number.
+        for (const Incident& incident : report.incidents)
+            if (incident.kind == Incident::Kind::not_a_number) throw std::runtime_error("not a number");
+    }
 }
 
 std::size_t World::index_of(std::int64_t id) const

@@ -53,7 +53,7 @@ struct World {
     /// A wall of finite mass, of even density in the box round it; returns its index among the pistons.
     std::size_t add_piston(Shape shape, double mass, const Vec3& guide, std::vector<LoadPoint> load = {});
     void add_plane(const Vec3& point, const Vec3& normal) { add_wall(Plane{point, normal}); }
-    void step(int count = 1);
+    void step(int count = 1); ///< @throws std::runtime_error where a sphere's motion is not a number
 
     // The first phases of a step:
     std::vector<PlacedWall> placed_walls() const;
