@@ -76,7 +76,9 @@ bool choose_pressure_scaling(const scene::Scene& scene, const Simulation& simula
                 "for it to matter");
         return asked.on;
     }
-    if (!rigid) return false;
+    // A bed presses against its own images: that balances whatever its size, so nothing keeps the pressure from
+    // growing. A flow down a periodic slope overlapped five times as much.
+    if (!rigid || simulation.model.periodicity.any()) return false;
     const Contents all = contents_of(simulation);
     return depth_of(all, simulation.model) >= deep || all.heaviest >= heavy * all.lightest;
 }

@@ -175,8 +175,8 @@ struct SolverTable {
             "largest speed with which overlap is undone; auto: 0.1 sqrt(diameter x gravity), without gravity 0.0008 "
             "diameter / step");
         key("pressure_scaling", self.pressure_scaling, one_of({"auto"}), "",
-            "carries changes of load through the whole bed before the sweeps; only with projected; auto: with "
-            "projected, where the bed is ten grains deep or something rests on grains much lighter");
+            "carries changes of load through the whole bed at once; only with projected; auto: with projected, where "
+            "the bed is ten grains deep or something rests on grains much lighter, but not along periodic axes");
         key("on_no_solution", self.on_no_solution, one_of({"stop", "go_on"}), "",
             "when walls press spheres together so that projected, which is rigid, has no solution; go_on: their "
             "contacts yield, and the run tells of them");

@@ -80,6 +80,11 @@ SolverSettings plain_sweeps(const Simulation& clogged, int count)
     return plain;
 }
 
+std::string plural(int sweeps)
+{
+    return std::to_string(sweeps) + (sweeps == 1 ? " plain sweep" : " plain sweeps");
+}
+
 void tell(HardCase& hard, const std::string& what, const Arch& arch)
 {
     hard.tell(what + ": steps until a bead comes through", arch.lifetime);
@@ -109,7 +114,8 @@ TEST_CASE("29 static arch over a hole of three beads", "[hard]")
     arch.contacts = {};
     tell(hard, "2e4 steps, impulses forgotten once", watch(arch, production, fewer_steps));
     for (const int sweeps : {1, 3, 10, 30})
-        tell(hard, "2e4 steps, forgotten once, plain sweeps", watch(arch, plain_sweeps(arch, sweeps), fewer_steps));
+        tell(
+            hard, "2e4 steps, forgotten once, " + plural(sweeps), watch(arch, plain_sweeps(arch, sweeps), fewer_steps));
     for (const int sweeps : {3, 10, 30, 100})
         tell(
             hard, "2e4 steps, no warm start, plain sweeps", watch(arch, plain_sweeps(arch, sweeps), fewer_steps, true));

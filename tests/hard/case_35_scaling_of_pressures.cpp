@@ -44,7 +44,7 @@ Flow watch(const std::string& scene, std::vector<std::string> overrides, bool sc
     return flow;
 }
 
-/// Asks of the scaled flow that it overlaps no more than the other.
+/// Asks of the scaled flow that it overlaps little more than the other.
 void compare(HardCase& hard, const std::string& name, const std::string& scene,
     const std::vector<std::string>& overrides, double from, double to)
 {
@@ -83,13 +83,22 @@ double mean_error(const Simulation& bed, int every)
 TEST_CASE("35 scaling of pressures in flows", "[hard]")
 {
     // Where contacts open, impacts happen and friction slides, pressures have no pattern that keeps: there the
-    // correction must do no harm. A hopper that empties, a flow down a slope along periodic axes, a bed on a floor that
-    // shakes: with scaling and without. Overlap may be somewhat more: the correction takes out long waves, so at the
+    // correction must do no harm. A hopper that empties, a bed on a floor that shakes: with scaling
+    // and without. Overlap may be somewhat more: the correction takes out long waves, so at the
     // same residual more of what is left are contacts that close.
     HardCase hard("35 scaling of pressures in flows");
     compare(hard, "hopper", "hopper", {"fill.0.count=2500", "wall.gate.remove_at=0.4"}, 0.55, 1.0);
-    compare(hard, "slope of 30 degrees", "incline", {"world.gravity=[4.905, 0, -8.496]"}, 1.0, 1.5);
     compare(hard, "vibrated bed", "vibrated_bed", {}, 0.5, 1.0);
+
+    // Where axes are periodic it does not hold up, and is off unless asked for: the bed's pressure on its own images is
+    // in balance whatever its size, so that it grows with the noise, and ε, a share of the impulses, is met too early.
+    const std::vector<std::string> steep = {"world.gravity=[4.905, 0, -8.496]"};
+    const Flow scaled = watch("incline", steep, true, 1.0, 1.5), plain = watch("incline", steep, false, 1.0, 1.5);
+    hard.tell("slope of 30 degrees, periodic: mean overlap [that of plain sweeps]", scaled.overlap / plain.overlap);
+    hard.tell("slope of 30 degrees, periodic: sweeps [plain]", scaled.sweeps / plain.sweeps);
+    hard.tell("slope of 30 degrees, periodic: kinetic energy [plain]", scaled.kinetic_energy / plain.kinetic_energy);
+    hard.holds("slope of 30 degrees, periodic: off unless asked for",
+        !open_scene("incline", {"solver.stabilisation=projected"}).model.solver.pressure_scaling);
 }
 
 TEST_CASE("35 scaling of pressures at rest", "[hard]")
@@ -108,16 +117,16 @@ TEST_CASE("35 scaling of pressures at rest", "[hard]")
 
     auto two = open_scene("two_tubes");
     run_until(two, 1.3);
-    LoadedBed left(two, 0.0445), right(two, 0.0445);
-    right.model.solver.pressure_scaling = false;
-    std::vector<double> scaled, plain;
-    for (int k = 0; k < 3000; ++k) {
-        left.step();
-        right.step();
-        scaled.push_back(left.profile_error());
-        plain.push_back(right.profile_error());
-    }
-    hard.below("two columns, one loaded: steps until its profile is within 5 %",
-        static_cast<double>(steps_until_carried(scaled)), 30);
-    hard.tell("without scaling", static_cast<double>(steps_until_carried(plain)));
+    const auto carried = [&](bool scaling) {
+        LoadedBed left(two, 0.0445);
+        left.model.solver.pressure_scaling = scaling;
+        std::vector<double> errors, sweeps = {0.0};
+        for (int k = 0; k < 3000; ++k) {
+            sweeps.push_back(sweeps.back() + left.step().sweeps);
+            errors.push_back(left.profile_error());
+        }
+        return sweeps[steps_until_carried(errors)];
+    };
+    hard.below("two columns, one loaded: sweeps until its profile is within 5 %", carried(true), 100);
+    hard.tell("without scaling", carried(false));
 }
