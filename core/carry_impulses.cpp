@@ -10,7 +10,8 @@ namespace talus
 namespace
 {
 
-/// Tells which contacts are pressed (press.hpp); none with `matched`, whose contacts give way, and none at pistons.
+/// Tells which contacts are pressed (press.hpp); none with `matched`, whose contacts give way, none at pistons, and
+/// none where no wall moves as told: to stand still obeys every contact then.
 struct PressGauge {
     const std::vector<Motion>& motion;
     double overlap; ///< [m]
@@ -18,8 +19,9 @@ struct PressGauge {
 
     PressGauge(const State& state, const Model& model)
         : motion(state.motion),
-          overlap(
-              model.solver.stabilisation == Stabilisation::projected ? pressed_overlap * model.min_diameter : infinity),
+          overlap(model.solver.stabilisation == Stabilisation::projected && model.physics.moving_walls
+                      ? pressed_overlap * model.min_diameter
+                      : infinity),
           closing(pressed_closing * model.min_diameter / model.time_step)
     {
     }
