@@ -76,8 +76,8 @@ bool choose_pressure_scaling(const scene::Scene& scene, const Simulation& simula
                 "for it to matter");
         return asked.on;
     }
-    // A bed presses against its own images: that balances whatever its size, so nothing keeps the pressure from
-    // growing. A flow down a periodic slope overlapped five times as much.
+    // A bed presses against its own images: that balances whatever its size, so nothing seems to keep the pressure from
+    // growing. A flow down a periodic slope overlapped five times as much (hard case 35).
     if (!rigid || simulation.model.periodicity.any()) return false;
     const Contents all = contents_of(simulation);
     return depth_of(all, simulation.model) >= deep || all.heaviest >= heavy * all.lightest;

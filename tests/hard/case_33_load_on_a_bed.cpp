@@ -31,20 +31,16 @@ double median(std::vector<double> values)
 
 void load_top(Carried& carried, const Simulation& bed, bool scaled, int min_sweeps)
 {
-    constexpr int steps = 3000;
     LoadedBed loaded(bed);
     loaded.model.solver.pressure_scaling = scaled;
     loaded.model.solver.min_sweeps = min_sweeps;
-    std::vector<double> errors, sweeps = {0.0};
-    for (int k = 0; k < steps; ++k) {
-        sweeps.push_back(sweeps.back() + loaded.step().sweeps);
-        errors.push_back(loaded.profile_error());
-    }
-    const auto when = steps_until_carried(errors);
+    const LoadHistory history([&] { return loaded.step(); }, [&] { return loaded.profile_error(); });
+    const auto& errors = history.errors;
+    const auto when = history.steps_until_carried();
     const auto later = std::count_if(
         errors.begin() + static_cast<std::ptrdiff_t>(when), errors.end(), [](double e) { return e > 0.05; });
     carried.steps.push_back(static_cast<double>(when));
-    carried.sweeps.push_back(sweeps[when]);
+    carried.sweeps.push_back(history.sweeps_until_carried());
     if (when < errors.size())
         carried.beyond =
             std::max(carried.beyond, static_cast<double>(later) / static_cast<double>(errors.size() - when));
@@ -126,13 +122,14 @@ TEST_CASE("33 a lid that becomes heavier", "[hard]")
         ContactNetwork contacts = s.contacts;
         model.solver.pressure_scaling = scaled;
         const double impulse = 1.25 * model.pistons[0].mass * model.gravity.norm() * model.time_step;
-        std::vector<double> errors, sweeps = {0.0};
-        for (int k = 0; k < 2000; ++k) {
-            const double before = momentum(model, state);
-            sweeps.push_back(sweeps.back() + make_step(state, contacts, model).sweeps);
-            errors.push_back(std::abs(momentum(model, state) - before) / impulse);
-        }
-        return sweeps[steps_until_carried(errors)];
+        double before = 0.0;
+        const LoadHistory history(
+            [&] {
+                before = momentum(model, state);
+                return make_step(state, contacts, model);
+            },
+            [&] { return std::abs(momentum(model, state) - before) / impulse; });
+        return history.sweeps_until_carried();
     };
     hard.holds("pressures are scaled without being asked for", s.model.solver.pressure_scaling);
     hard.below("sweeps until the floor's force is within 5 %", carried(true), 10);

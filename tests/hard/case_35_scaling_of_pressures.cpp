@@ -120,12 +120,7 @@ TEST_CASE("35 scaling of pressures at rest", "[hard]")
     const auto carried = [&](bool scaling) {
         LoadedBed left(two, 0.0445);
         left.model.solver.pressure_scaling = scaling;
-        std::vector<double> errors, sweeps = {0.0};
-        for (int k = 0; k < 3000; ++k) {
-            sweeps.push_back(sweeps.back() + left.step().sweeps);
-            errors.push_back(left.profile_error());
-        }
-        return sweeps[steps_until_carried(errors)];
+        return LoadHistory([&] { return left.step(); }, [&] { return left.profile_error(); }).sweeps_until_carried();
     };
     hard.below("two columns, one loaded: sweeps until its profile is within 5 %", carried(true), 100);
     hard.tell("without scaling", carried(false));

@@ -21,6 +21,23 @@ Simulation bed_at_rest(int layers, int seed = 1);
 /// load makes grains find new places, and while one does, the profile is off for some steps, as it should be.
 std::size_t steps_until_carried(const std::vector<double>& errors);
 
+/// What happened to a load in 3000 steps.
+struct LoadHistory {
+    std::vector<double> errors;         ///< force-profile error after each step
+    std::vector<double> sweeps = {0.0}; ///< made before each step, and in all
+
+    template <class Step, class Error> LoadHistory(Step&& step, Error&& error)
+    {
+        for (int k = 0; k < 3000; ++k) {
+            sweeps.push_back(sweeps.back() + step().sweeps);
+            errors.push_back(error());
+        }
+    }
+
+    std::size_t steps_until_carried() const { return talus::test::steps_until_carried(errors); }
+    double sweeps_until_carried() const { return sweeps[steps_until_carried()]; }
+};
+
 /// z of the centre of mass [m].
 double center_height(const State& state);
 
