@@ -112,7 +112,7 @@ Simulation build_scene(const scene::Scene& scene)
     const auto choice = choose_step(scene, simulation);
     model.time_step = choice.step;
     model.solver.push_out_speed = push_out_speed(scene, model);
-    model.solver.pressure_scaling = choose_pressure_scaling(scene, simulation);
+    choose_pressure_scaling(scene, simulation);
     model.speed_limit = 10.0 * choice.fastest_speed + model.min_diameter / choice.step;
     simulation.step_explanation = choice.explanation;
     simulation.model_explanation = explain_model(model);

@@ -12,7 +12,9 @@ namespace talus
 namespace
 {
 
-constexpr double deep = 10.0;        ///< mean diameters; in shallower beds sweeps alone do as well
+constexpr double deep = 10.0;       ///< mean diameters; in shallower beds sweeps alone do as well
+constexpr double very_deep = 100.0; ///< mean diameters; there three sweeps do not clean up after it (hard case 33)
+constexpr int sweeps_in_very_deep = 6;
 constexpr double heavy = 10.0;       ///< times the lightest sphere
 constexpr double packed_share = 0.6; ///< of the room that a bed takes
 
@@ -65,22 +67,24 @@ double depth_of(const Contents& all, const Model& model)
 
 } // namespace
 
-bool choose_pressure_scaling(const scene::Scene& scene, const Simulation& simulation)
+void choose_pressure_scaling(const scene::Scene& scene, Simulation& simulation)
 {
-    const bool rigid = simulation.model.solver.stabilisation == Stabilisation::projected;
+    SolverSettings& solver = simulation.model.solver;
     const auto& asked = scene.solver.pressure_scaling;
-    if (asked.name != "auto") {
-        if (asked.on && !rigid)
-            throw SceneError("solver.pressure_scaling",
-                "pressure scaling goes with stabilisation \"projected\" only; with \"matched\" contacts are too soft "
-                "for it to matter");
-        return asked.on;
-    }
+    const bool rigid = solver.stabilisation == Stabilisation::projected, open = asked.name == "auto";
+    if (!open && asked.on && !rigid)
+        throw SceneError("solver.pressure_scaling",
+            "pressure scaling goes with stabilisation \"projected\" only; with \"matched\" contacts are too soft "
+            "for it to matter");
+    const Contents all = contents_of(simulation);
+    const double depth = depth_of(all, simulation.model);
     // A bed presses against its own images: that balances whatever its size, so nothing seems to keep the pressure from
     // growing. A flow down a periodic slope overlapped five times as much (hard case 35).
-    if (!rigid || simulation.model.periodicity.any()) return false;
-    const Contents all = contents_of(simulation);
-    return depth_of(all, simulation.model) >= deep || all.heaviest >= heavy * all.lightest;
+    const bool useful =
+        rigid && !simulation.model.periodicity.any() && (depth >= deep || all.heaviest >= heavy * all.lightest);
+    solver.pressure_scaling = open ? useful : asked.on;
+    if (solver.pressure_scaling && depth >= very_deep && scene.solver.min_sweeps == 0)
+        solver.min_sweeps = std::min(sweeps_in_very_deep, solver.max_sweeps);
 }
 
 } // namespace talus

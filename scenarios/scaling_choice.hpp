@@ -7,9 +7,10 @@
 namespace talus
 {
 
-/// Whether pressure is scaled in this run. Where the scene leaves it open: with `projected`, in a bed of ten grains or
-/// more, or where something rests on grains of a tenth of its mass or less; where no axis is periodic.
+/// Settles whether pressure is scaled in this run. Where the scene leaves it open: with `projected`, in a bed of ten
+/// grains or more, or where something rests on grains of a tenth of its mass or less; where no axis is periodic. Beds
+/// of a hundred grains or more then take at least six sweeps a step, unless the scene says how many.
 /// @throws SceneError where it is asked for with `matched`, whose grains are too soft for it to matter
-bool choose_pressure_scaling(const scene::Scene& scene, const Simulation& simulation);
+void choose_pressure_scaling(const scene::Scene& scene, Simulation& simulation);
 
 } // namespace talus

@@ -117,8 +117,8 @@ TEST_CASE("29 static arch over a hole of three beads", "[hard]")
         tell(
             hard, "2e4 steps, forgotten once, " + plural(sweeps), watch(arch, plain_sweeps(arch, sweeps), fewer_steps));
     for (const int sweeps : {3, 10, 30, 100})
-        tell(
-            hard, "2e4 steps, no warm start, plain sweeps", watch(arch, plain_sweeps(arch, sweeps), fewer_steps, true));
+        tell(hard, "2e4 steps, no warm start, " + plural(sweeps),
+            watch(arch, plain_sweeps(arch, sweeps), fewer_steps, true));
 
     const Simulation soft = clogged("matched", false);
     tell(hard, "matched", watch(soft, soft.model.solver));

@@ -321,6 +321,12 @@ const std::vector<Mistake> of_the_rest = {
     {[](S& s) { s.world.max = s.world.min = Vec3::Zero(); }, "world.max",
         "the world is empty: every coordinate of 'min' must be below that of 'max'"},
     {[](S& s) { s.solver.max_sweeps = 1; }, "solver.max_sweeps", "'max_sweeps' must be at least the 2 of 'min_sweeps'"},
+    {[](S& s) {
+         s.solver.pressure_scaling = {true, ""};
+     },
+        "solver.pressure_scaling",
+        "pressure scaling goes with stabilisation \"projected\" only; with \"matched\" contacts are too soft for it to "
+        "matter"},
     {[](S& s) { s.world.gravity.setZero(); }, "time.step",
         "without gravity and speeds there is no automatic step: give one in seconds"},
     {[](S& s) {
