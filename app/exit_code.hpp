@@ -11,7 +11,7 @@ enum class ExitCode {
     input = 2,         ///< wrong usage, a wrong scene or a wrong problem
     physics = 3,       ///< a sphere escaped, is not a number or blew up
     output = 4,        ///< a file cannot be written
-    internal = 70,
+    internal = 70,     ///< a fault of Talus, or no memory
     interrupted = 130, ///< by SIGINT, after a checkpoint
     terminated = 143   ///< by SIGTERM, likewise
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/check_scene.hpp"
 #include "app/command_line.hpp"
+#include "app/crashes.hpp"
 #include "app/dump_step.hpp"
 #include "app/exit_code.hpp"
 #include "app/open_scene.hpp"
@@ -9,8 +10,11 @@
 #include "app/short_spins.hpp"
 #include "app/solve_problem.hpp"
 #include "app/terminal.hpp"
+#include "app/whereabouts.hpp"
 #include "io/input_error.hpp"
 #include "io/key_table.hpp"
+
+#include <new>
 
 namespace talus
 {
@@ -48,6 +52,14 @@ ExitCode fail(ExitCode code, const std::string& sentence)
     return code;
 }
 
+std::string with_whereabouts(const std::string& sentence)
+{
+    ShortText text;
+    text << sentence;
+    add_whereabouts(text);
+    return std::string(text.view());
+}
+
 ExitCode execute_guarded(int argc, const char* const* argv)
 {
     try {
@@ -58,10 +70,12 @@ ExitCode execute_guarded(int argc, const char* const* argv)
     } catch (const InputError& error) {
         return fail(ExitCode::input, error.what());
     } catch (const OutputError& error) {
-        return fail(ExitCode::output, error.what());
+        return fail(ExitCode::output, with_whereabouts(error.what()));
+    } catch (const std::bad_alloc&) {
+        return fail(ExitCode::internal, with_whereabouts("talus: there is not enough memory"));
     } catch (const std::exception& error) {
-        return fail(
-            ExitCode::internal, fmt::format("talus: this is a fault of Talus, please report it: {}", error.what()));
+        return fail(ExitCode::internal,
+            with_whereabouts(fmt::format("talus: this is a fault of Talus, please report it: {}", error.what())));
     }
 }
 
@@ -71,5 +85,6 @@ ExitCode execute_guarded(int argc, const char* const* argv)
 int main(int argc, char** argv)
 {
     talus::restart_with_short_spins(argv);
+    talus::catch_crashes();
     return static_cast<int>(talus::execute_guarded(argc, argv));
 }

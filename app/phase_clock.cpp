@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/phase_clock.hpp"
 
+#include "app/whereabouts.hpp"
+
 #include <ctime>
 
 namespace talus
@@ -19,9 +21,7 @@ double seconds(clockid_t clock)
 
 PhaseClock::PhaseClock() : start_(read()), last_(start_)
 {
-    for (const char* name :
-        {"search", "assembly", "warm_start", "sweeps", "positions", "report", "pour_and_outlet", "sensors", "output"})
-        phases_.push_back({name, 0.0, 0.0});
+    for (const char* name : phase_names) phases_.push_back({name, 0.0, 0.0});
 }
 
 PhaseClock::Reading PhaseClock::read()
@@ -37,6 +37,7 @@ void PhaseClock::begin(RunPhase phase)
     ended.cpu += now.cpu - last_.cpu;
     last_ = now;
     current_ = phase;
+    note_phase(phase);
 }
 
 void PhaseClock::persist(Archive& archive)

@@ -5,6 +5,7 @@
 #include "core/time_step.hpp"
 #include "io/summary.hpp"
 
+#include <array>
 #include <vector>
 
 namespace talus
@@ -12,6 +13,9 @@ namespace talus
 
 /// What a run spends its time on: the phases of a step (in the order of Phase) and what happens around them.
 enum class RunPhase { search, assembly, warm_start, sweeps, positions, report, pour_and_outlet, sensors, output };
+
+inline constexpr std::array<const char*, 9> phase_names = {
+    "search", "assembly", "warm_start", "sweeps", "positions", "report", "pour_and_outlet", "sensors", "output"};
 
 /// Shares out wall and CPU time among the phases. It runs from its making on and is always in one phase, so that the
 /// phases add up to the whole.

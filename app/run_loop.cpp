@@ -3,6 +3,7 @@
 
 #include "app/signals.hpp"
 #include "app/terminal.hpp"
+#include "app/whereabouts.hpp"
 #include "io/checkpoint.hpp"
 #include "io/input_error.hpp"
 #include "io/lost_spheres.hpp"
@@ -56,6 +57,7 @@ RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbo
       contact_schedule_(opened.scene.output.contact_interval), checkpoint_schedule_(opened.scene.checkpoint.interval),
       frames_(folder), watch_(opened.simulation.model), progress_(verbosity, opened.simulation)
 {
+    note_run(folder);
     if (checkpoint)
         go_on(*checkpoint);
     else
@@ -85,6 +87,7 @@ void RunLoop::go_on(Archive& checkpoint)
     frames_.cut_back();
     write_lost(folder_, simulation_.escaped);
     standing_ = standing_walls(simulation_.model, time);
+    note_checkpoint(time);
     for (Schedule* schedule : {&particle_schedule_, &checkpoint_schedule_}) schedule->due(time);
     if (simulation_.state.steps == 0) return; // the first contacts and metrics are those of the first step
     for (Schedule* schedule : {&metrics_schedule_, &contact_schedule_}) schedule->due(time);
@@ -137,6 +140,7 @@ void RunLoop::take_out_escaped(const StepReport& report)
 
 StepReport RunLoop::make_step()
 {
+    note_step(simulation_.state.steps, simulation_.state.time);
     clock_.begin(RunPhase::pour_and_outlet);
     StepReport report = step(simulation_, [this](Phase phase) { clock_.begin(phase); });
     clock_.begin(RunPhase::output);
@@ -190,6 +194,7 @@ void RunLoop::write_checkpoint()
     archive(origin_);
     persist(archive, metrics_size);
     talus::write_checkpoint(folder_, TALUS_VERSION, archive.bytes());
+    note_checkpoint(simulation_.state.time);
     checkpoint_wall_ = clock_.wall();
     if (verbosity_ != Verbosity::verbose) return;
     progress_.finish();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/signals.hpp"
 
+#include "app/whereabouts.hpp"
+
 #include <csignal>
 #include <unistd.h>
 
@@ -15,7 +17,12 @@ volatile std::sig_atomic_t checkpoint = 0;
 
 extern "C" void handle_stop(int signal)
 {
-    if (stop != 0) _exit(128 + signal);
+    if (stop != 0) {
+        ShortText text;
+        text << "stopped at once by a second signal";
+        say_last_words(text);
+        _exit(128 + signal);
+    }
     stop = signal;
 }
 

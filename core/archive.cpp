@@ -18,9 +18,9 @@ void Archive::raw(void* data, std::size_t size)
     at_ += size;
 }
 
-void Archive::require(std::size_t size) const
+void Archive::require(std::size_t count, std::size_t size_of_one) const
 {
-    if (size > bytes_.size() - at_) throw ArchiveError("the saved state ends too early");
+    if (count > (bytes_.size() - at_) / size_of_one) throw ArchiveError("the saved state ends too early");
 }
 
 } // namespace talus

@@ -54,12 +54,15 @@ private:
     std::size_t at_ = 0;
     bool reading_ = false;
 
+    template <class T> static constexpr bool has_persist = requires(T& t, Archive& archive) { t.persist(archive); };
+
     void raw(void* data, std::size_t size);
-    void require(std::size_t size) const; ///< @throws ArchiveError where fewer bytes are left
+    /// @throws ArchiveError where fewer bytes are left than so many elements take
+    void require(std::size_t count, std::size_t size_of_one = 1) const;
 
     template <class Field> void keep(Field& field)
     {
-        if constexpr (requires { field.persist(*this); })
+        if constexpr (has_persist<Field>)
             field.persist(*this);
         else {
             static_assert(std::is_trivially_copyable_v<Field> && !std::is_pointer_v<Field>,
@@ -68,12 +71,20 @@ private:
         }
     }
 
+    /// A byte that is not 0 or 1 is no truth value.
+    void keep(bool& truth)
+    {
+        std::uint8_t byte = truth ? 1 : 0;
+        raw(&byte, 1);
+        truth = byte != 0;
+    }
+
     void keep(Vec3& vector) { raw(vector.data(), 3 * sizeof(double)); }
     void keep(Box& box) { operator()(box.min, box.max); }
 
     void keep(std::string& text)
     {
-        resize(text);
+        resize(text, 1);
         raw(text.data(), text.size());
     }
 
@@ -98,20 +109,22 @@ private:
 
     template <class Element> void keep(std::vector<Element>& list)
     {
-        resize(list);
-        if constexpr (std::is_trivially_copyable_v<Element> && !requires(Element & e) { e.persist(*this); })
+        constexpr bool plain = std::is_trivially_copyable_v<Element> && !has_persist<Element>;
+        resize(list, plain ? sizeof(Element) : 1);
+        if constexpr (plain)
             raw(list.data(), list.size() * sizeof(Element));
         else
             for (auto& element : list) keep(element);
     }
 
-    /// The size of a list, each element of which takes one byte at least.
-    template <class List> void resize(List& list)
+    /// The size of a list.
+    /// @param least bytes that an element takes
+    template <class List> void resize(List& list, std::size_t least)
     {
         std::uint64_t size = list.size();
         raw(&size, sizeof size);
         if (!reading_) return;
-        require(static_cast<std::size_t>(size));
+        require(static_cast<std::size_t>(size), least);
         list.resize(static_cast<std::size_t>(size));
     }
 };

@@ -121,6 +121,7 @@ std::optional<Table> Profile::table() const
 void Profile::persist(Archive& archive)
 {
     archive(latest_, of_bin_, of_all_);
+    if (of_bin_.size() != bins_.count()) throw ArchiveError("the saved profile has another number of bins");
 }
 
 } // namespace talus

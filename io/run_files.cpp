@@ -48,6 +48,16 @@ bool is_output_of_a_run(const std::string& name)
     return false;
 }
 
+/// Whether nothing is in a folder but, perhaps, a marker that a run did not live to finish.
+bool is_unused(const fs::path& folder)
+{
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+        if (entry.path().filename() != fmt::format("{}.tmp", marker)) return false;
+    if (error) refuse_output(folder, error.message());
+    return true;
+}
+
 /// Removes what a run wrote, and nothing else: a user may keep notes and pictures beside it.
 void remove_run(const fs::path& folder)
 {
@@ -116,8 +126,7 @@ void make_run_folder(const fs::path& folder, const std::string& resolved_scene, 
     std::error_code error;
     if (fs::exists(folder, error) && !fs::is_directory(folder, error))
         throw InputError(fmt::format("{}: is a file, not a folder for a run's output", folder.string()));
-    if (fs::is_directory(folder, error) && !fs::is_empty(folder, error)) {
-        if (error) refuse_output(folder, error.message());
+    if (fs::is_directory(folder, error) && !is_unused(folder)) {
         if (!fs::exists(folder / marker, error))
             throw InputError(fmt::format(
                 "{}: the folder holds files that are not of a run of Talus; choose another with -o", folder.string()));

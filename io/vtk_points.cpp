@@ -4,6 +4,7 @@
 #include "io/input_error.hpp"
 #include "io/input_file.hpp"
 #include "io/toml_value.hpp"
+#include "io/trial_run.hpp"
 
 #include <vtkErrorCode.h>
 #include <vtkLogger.h>
@@ -98,13 +99,27 @@ template <class Reader> vtkSmartPointer<vtkPointSet> read_with(const std::filesy
     return reader->GetOutput();
 }
 
+vtkSmartPointer<vtkPointSet> read_unprotected(const std::filesystem::path& path)
+{
+    return path.extension() == ".vtp" ? read_with<vtkXMLPolyDataReader>(path)
+                                      : read_with<vtkXMLUnstructuredGridReader>(path);
+}
+
+/// What VTK may use to read a file of this size. Compressed files grow at most a thousandfold, and that is far.
+TrialLimits limits_for(std::uintmax_t size)
+{
+    return {.seconds = 10 + static_cast<int>(size >> 20), .memory = (std::size_t{256} << 20) + 32 * size};
+}
+
 } // namespace
 
 vtkSmartPointer<vtkPointSet> read_points(const std::filesystem::path& path)
 {
     require_file(path, "a VTK file");
-    return path.extension() == ".vtp" ? read_with<vtkXMLPolyDataReader>(path)
-                                      : read_with<vtkXMLUnstructuredGridReader>(path);
+    // A damaged file may crash VTK's reader, or have it ask for more memory than there is.
+    try_in_a_copy([&] { read_unprotected(path); }, limits_for(std::filesystem::file_size(path)),
+        fmt::format("{}: VTK cannot read it: the file is damaged, or holds more than its size allows", path.string()));
+    return read_unprotected(path);
 }
 
 } // namespace talus

@@ -12,6 +12,18 @@ namespace talus
 namespace
 {
 
+constexpr double most_grains = 1e7; ///< of a wall: a gigabyte, about, with what a search needs
+
+Grains build_grains(const scene::WallTable& w, const Box& box, const std::string& key)
+{
+    const double spacing = w.spacing * w.diameter;
+    double count = 1.0;
+    for (int d = 0; d < 3; ++d) count *= std::max(1.0, box.extent()[d] / spacing);
+    if (!(count <= most_grains))
+        throw SceneError(key, "the wall would have more than 10000000 grains; make them larger, or its box smaller");
+    return grain_bed(box, w.diameter, spacing);
+}
+
 Shape build_shape(const scene::WallTable& w, std::size_t index)
 {
     const auto key = [&](const char* name) { return key_path("wall", index, name); };
@@ -22,8 +34,7 @@ Shape build_shape(const scene::WallTable& w, std::size_t index)
         if (w.hole_radius >= w.radius) throw SceneError(key("hole_radius"), "the hole must be smaller than the disk");
         return Disk{w.center, unit_vector(w.normal, key("normal")), w.radius, w.hole_radius};
     }
-    if (w.shape == "grains")
-        return grain_bed(require_layer(w.min, w.max, key("max")), w.diameter, w.spacing * w.diameter);
+    if (w.shape == "grains") return build_grains(w, require_layer(w.min, w.max, key("max")), key("diameter"));
     if (w.shape == "mesh") {
         if (w.triangles.empty())
             throw SceneError(key("mesh"), "a wall of shape \"mesh\" needs an STL file with triangles");

@@ -13,7 +13,8 @@ namespace talus
 namespace
 {
 
-constexpr int tries = 2000; ///< places tried for one sphere of a random packing
+constexpr int tries = 2000;                    ///< places tried for one sphere of a random packing
+constexpr std::int64_t most_places = 10000000; ///< of a lattice, and ten for each sphere, tried in vain
 
 /// Spheres sorted into cubes as large as the largest of them, to find those near a place.
 class SphereGrid
@@ -99,14 +100,16 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const Mixture& m
     const Vec3 middle = bounds.center();
     // Half the region's size along each direction of the frame.
     const auto half = [&](const Vec3& e) { return 0.5 * bounds.extent().dot(e.cwiseAbs()); };
-    const auto layers = static_cast<std::int64_t>(2.0 * half(frame.up) / a) + 2;
-    const auto rows = static_cast<std::int64_t>(half(frame.e1) / a) + 2;
-    const auto columns = static_cast<std::int64_t>(half(frame.e2) / a) + 2;
+    const auto places = [&](double length) {
+        return static_cast<std::int64_t>(std::min(length / a, static_cast<double>(most_places))) + 2;
+    };
+    const auto layers = places(2.0 * half(frame.up)), rows = places(half(frame.e1)), columns = places(half(frame.e2));
 
     const auto grid = grid_of(others, mixture);
     const auto walls = place_walls_at_start(model);
     std::vector<PackedSphere> spheres;
     Grain next = mixture.draw(random);
+    std::int64_t in_vain = 0; // places that were taken, or outside
     for (std::int64_t k = 0; k < layers; ++k) {
         for (std::int64_t i = -rows; i <= rows; ++i)
             for (std::int64_t j = -columns; j <= columns; ++j) {
@@ -118,8 +121,10 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const Mixture& m
                                    (0.5 * a - half(frame.up) + static_cast<double>(k) * a) * frame.up;
                 const PackedSphere sphere{point + jitter, radius, next.material};
                 if (!region.contains(sphere.center, radius) || grid.overlaps(sphere) ||
-                    touches_wall(walls, sphere.center, sphere.radius))
+                    touches_wall(walls, sphere.center, sphere.radius)) {
+                    if (++in_vain > most_places + 10 * count) return spheres;
                     continue;
+                }
                 spheres.push_back(sphere);
                 next = mixture.draw(random);
             }

@@ -3,6 +3,7 @@
 
 #include "core/neighbor_search.hpp"
 #include "core/placed_wall.hpp"
+#include "core/saved_state.hpp"
 #include "core/sub_steps.hpp"
 
 namespace talus
@@ -26,7 +27,10 @@ void let_in_and_out(Simulation& simulation)
 void Simulation::persist(Archive& archive)
 {
     archive(state, contacts, pours, outflow, escaped);
-    if (archive.reading()) contacts.resize_contacts(model.physics);
+    if (archive.reading()) {
+        require_whole(state, contacts, model);
+        contacts.resize_contacts(model.physics);
+    }
     for (const auto& sensor : sensors) archive(*sensor);
 }
 

@@ -135,8 +135,13 @@ std::string Workplace::read(const std::string& name) const
 
 Outcome Workplace::talus(const std::string& arguments, const std::string& limits) const
 {
-    const std::string command = "cd " + folder_.string() + " && { " + limits + " " TALUS_BINARY " " + arguments +
-                                "; } > stdout.txt 2> stderr.txt";
+    return shell(limits + " $TALUS " + arguments);
+}
+
+Outcome Workplace::shell(const std::string& commands) const
+{
+    const std::string command =
+        "cd " + folder_.string() + " && TALUS=" TALUS_BINARY " && { " + commands + "; } > stdout.txt 2> stderr.txt";
     const int status = std::system(command.c_str());
     REQUIRE(WIFEXITED(status));
     return {WEXITSTATUS(status), read("stdout.txt"), read("stderr.txt")};

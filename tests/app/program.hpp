@@ -29,6 +29,9 @@ public:
     /// @param limits shell commands that come before, e.g. "ulimit -f 8;"
     Outcome talus(const std::string& arguments, const std::string& limits = "") const;
 
+    /// Runs commands of a shell in the folder, in which $TALUS is the program.
+    Outcome shell(const std::string& commands) const;
+
     /// Calls `talus` and sends it a signal as soon as a file is there.
     /// @param signal as `kill` takes it, e.g. "INT"
     Outcome talus_until(const std::string& file, const std::string& signal, const std::string& arguments) const;
