@@ -2,6 +2,7 @@
 #include "core/saved_state.hpp"
 
 #include "core/archive.hpp"
+#include "core/placed_wall.hpp"
 
 #include <algorithm>
 #include <array>
@@ -83,20 +84,22 @@ bool are_pairs(const ContactNetwork& contacts, std::size_t spheres, const Model&
            are_carried(contacts.pair_carried, contacts.pairs.size(), model);
 }
 
-bool is_wall_pair(const ContactNetwork& contacts, const WallPair& pair, std::size_t spheres, const Model& model)
+bool is_wall_pair(
+    const ContactNetwork& contacts, const WallPair& pair, std::size_t spheres, const std::vector<PlacedWall>& walls)
 {
-    if (!are_indices(std::array{pair.sphere}, spheres) || !are_indices(std::array{pair.wall}, model.walls.size()))
+    if (!are_indices(std::array{pair.sphere}, spheres) || !are_indices(std::array{pair.wall}, walls.size()))
         return false;
     const std::size_t end = std::size_t{pair.first} + pair.patches;
     if (end > contacts.patches.size() || pair.carried > pair.patches) return false;
     const std::vector<std::int32_t> patches(
         contacts.patches.begin() + pair.first, contacts.patches.begin() + static_cast<std::ptrdiff_t>(end));
-    return are_indices(patches, patch_count(model.walls[static_cast<std::size_t>(pair.wall)].shape));
+    return are_indices(patches, walls[static_cast<std::size_t>(pair.wall)].patch_count());
 }
 
-bool are_wall_pairs(const ContactNetwork& contacts, std::size_t spheres, const Model& model)
+bool are_wall_pairs(const ContactNetwork& contacts, const State& state, const Model& model)
 {
-    const auto is_pair = [&](const WallPair& pair) { return is_wall_pair(contacts, pair, spheres, model); };
+    const auto walls = place_walls(model, state);
+    const auto is_pair = [&](const WallPair& pair) { return is_wall_pair(contacts, pair, state.count(), walls); };
     const std::size_t slots = contacts.patches.size();
     return std::ranges::all_of(contacts.wall_pairs, is_pair) &&
            divides(contacts.wall_pairs_of_tile, contacts.tiles.count(), contacts.wall_pairs.size()) &&
@@ -113,7 +116,7 @@ void require_whole(const State& state, const ContactNetwork& contacts, const Mod
     const bool whole = are_spheres(state, model) && contacts.listed_box.size() <= n &&
                        (contacts.listed_pose.empty() || contacts.listed_pose.size() == model.walls.size()) &&
                        are_tiles(contacts.tiles, n) && are_pairs(contacts, n, model) &&
-                       are_wall_pairs(contacts, n, model);
+                       are_wall_pairs(contacts, state, model);
     if (!whole) throw ArchiveError("the saved state contradicts itself");
 }
 

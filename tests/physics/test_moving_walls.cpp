@@ -72,8 +72,8 @@ TEST_CASE("bodies on a plate at constant velocity are those on a plate at rest, 
     const auto [solver, steps] =
         GENERATE(table<SolverSettings, int>({{rigid_settings(), 1000}, {matched_settings(), 400}}));
     const Vec3 velocity(3.0, -1.0, 0.5);
-    const auto scene = [&](const Vec3& v, const WallMotion& motion) {
-        World world = make_world({.friction = 0.4, .restitution = 0.5, .rolling_friction = 0.05}, solver, time_step);
+    const auto scene = [&, &law = solver](const Vec3& v, const WallMotion& motion) {
+        World world = make_world({.friction = 0.4, .restitution = 0.5, .rolling_friction = 0.05}, law, time_step);
         world.add_wall(box_panels({Vec3(-0.03, -0.03, 0), Vec3(0.03, 0.03, 0.1)}, {"z+"}), motion);
         for (int k = 0; k < 12; ++k)
             world.add_sphere(Vec3(0.013 * (k % 2) - 0.005, 0.012 * (k / 2 % 3) - 0.012, 0.02 + 0.012 * (k / 4)),
