@@ -70,8 +70,12 @@ SphereGrid grid_of(const std::vector<PackedSphere>& others, const Mixture& mixtu
 Vec3 random_in_ball(Random& random)
 {
     for (;;) {
-        const Vec3 x(2.0 * uniform(random) - 1.0, 2.0 * uniform(random) - 1.0, 2.0 * uniform(random) - 1.0);
-        if (x.squaredNorm() <= 1.0) return x;
+        // One after the other: compilers take the arguments of a call in orders of their own.
+        const double z = 2.0 * uniform(random) - 1.0;
+        const double y = 2.0 * uniform(random) - 1.0;
+        const double x = 2.0 * uniform(random) - 1.0;
+        const Vec3 point(x, y, z);
+        if (point.squaredNorm() <= 1.0) return point;
     }
 }
 

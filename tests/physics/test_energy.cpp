@@ -16,7 +16,7 @@ constexpr int steps = 700; ///< 0.35 s: the block falls, collapses and comes to 
 constexpr int along = 3;   ///< spheres along each edge of the block
 
 /// Spheres on a loose lattice with random velocities and spins, above the floor of an open box: no overlap.
-World spheres_above_a_box(double friction, double restitution, const SolverSettings& solver)
+World spheres_above_a_box(double friction, double restitution, const SolverSettings& solver, int seed = 7)
 {
     ContactLaw law;
     law.friction = friction;
@@ -25,7 +25,7 @@ World spheres_above_a_box(double friction, double restitution, const SolverSetti
     const double cell = 2.3 * standard_radius;
     const double edge = along * cell;
     world.add_wall(box_panels({Vec3::Zero(), Vec3(edge, edge, 5 * edge)}, {"z+"}));
-    Random random(7);
+    Random random(static_cast<std::uint64_t>(seed));
     const auto random_vector = [&](double size) {
         const double x = uniform(random) - 0.5;
         const double y = uniform(random) - 0.5;
@@ -33,8 +33,9 @@ World spheres_above_a_box(double friction, double restitution, const SolverSetti
     };
     for (int k = 0; k < along * along * along; ++k) {
         const Vec3 place(k % along + 0.5, k / along % along + 0.5, k / (along * along) + 1.0);
-        world.add_sphere(cell * place + random_vector(0.2 * standard_radius), random_vector(1.0), random_vector(100.0),
-            standard_radius * (0.8 + 0.2 * uniform(random)));
+        const double radius = standard_radius * (0.8 + 0.2 * uniform(random));
+        const Vec3 spin = random_vector(100.0), velocity = random_vector(1.0);
+        world.add_sphere(cell * place + random_vector(0.2 * standard_radius), velocity, spin, radius);
     }
     return world;
 }
@@ -90,14 +91,24 @@ TEST_CASE(
     CHECK(kinetic_energy(world.state) < 1e-3 * record.start); // it did come to rest
 }
 
-TEST_CASE("without friction restitution never adds energy to the discrete motion", "[energy][dissipation][restitution]")
+TEST_CASE("without friction restitution hardly ever adds energy to the discrete motion, and never above the start",
+    "[energy][dissipation][restitution]")
 {
     // A rigid contact changes H by ½ λ_n (u_n⁺ + u_n⁻): for an impact ½ λ_n (1 − e) u_n⁻ ≤ 0. Only a contact
-    // that was opening (u_n⁻ > 0) and is pressed shut by another's impact in the same step may add a trace.
-    World world = spheres_above_a_box(0.0, GENERATE(0.5, 0.9, 1.0), rigid_settings(1e-9, 1000));
-    const auto record = record_energy(world, discrete_energy);
-    CHECK(record.worst_rise < 1e-6 * record.start);
-    CHECK(record.end < record.start);
+    // that was opening (u_n⁻ > 0) and is pressed shut by another's impact in the same step adds some: of 600 blocks
+    // 24 see a step that adds more than 1e-6 of the energy at the start, and one 1.5e-3.
+    const double e = GENERATE(0.5, 0.9, 1.0);
+    constexpr int blocks = 100;
+    int visible = 0;
+    for (int seed = 1; seed <= blocks; ++seed) {
+        World world = spheres_above_a_box(0.0, e, rigid_settings(1e-9, 1000), seed);
+        const auto record = record_energy(world, discrete_energy);
+        visible += record.worst_rise > 1e-6 * record.start;
+        CHECK(record.rises < 5e-3 * record.start);
+        CHECK(record.highest < (1 + 1e-6) * record.start);
+        CHECK(record.end < record.start);
+    }
+    CHECK(visible <= blocks / 10);
 }
 
 TEST_CASE("friction and restitution together add next to nothing and never exceed the energy at the start",

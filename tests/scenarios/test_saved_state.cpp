@@ -45,7 +45,7 @@ const std::vector<std::pair<std::string, Spoil>> contradictions = {
     {"a piston that is not there", [](State& s, ContactNetwork&) { s.pistons.emplace_back(); }},
     {"a pair with a sphere that is not there", [](State&, ContactNetwork& c) { c.pairs[0].b = 20; }},
     {"pairs of more tiles", [](State&, ContactNetwork& c) { c.pairs_of_tile.push_back(c.pairs_of_tile.back()); }},
-    {"pairs past the end", [](State&, ContactNetwork& c) { ++c.pair_count.back(); }},
+    {"pairs past the end", [](State&, ContactNetwork& c) { c.pair_count[0] += 100000; }},
     {"impulses of fewer pairs", [](State&, ContactNetwork& c) { c.pair_carried.impulse.pop_back(); }},
     {"a sphere in a tile that is not there", [](State&, ContactNetwork& c) { c.tiles.spheres[0] = -1; }},
     {"colours of more tiles", [](State&, ContactNetwork& c) { ++c.tiles.color_first.back(); }},
