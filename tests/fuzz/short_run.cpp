@@ -37,8 +37,8 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr std::size_t longest = 1 << 17;
-constexpr unsigned patience = 10;          ///< for one input [s]
-constexpr rlim_t memory = rlim_t{1} << 30; ///< of the process [B]
+constexpr unsigned patience = 10;                           ///< for one input [s]
+[[maybe_unused]] constexpr rlim_t memory = rlim_t{1} << 30; ///< of the process [B]
 constexpr std::array<const char*, 16> odd_numbers = {"0", "-0", "-1", "1e308", "-1e308", "5e-324", "nan", "inf", "-inf",
     "9223372036854775807", "-9223372036854775808", "1e-9", "1e9", "0.5", "2147483648", "1e400"};
 
