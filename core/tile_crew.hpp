@@ -69,7 +69,9 @@ private:
         if (waiting_.fetch_add(1, std::memory_order_acq_rel) + 1 == threads_) {
             waiting_.store(0, std::memory_order_relaxed);
             next_.store(next_tile, std::memory_order_relaxed);
-            round_.store(round + 1, std::memory_order_release);
+            // Not release: notify_all reads whether anyone sleeps, and a processor may read that before it has written
+            // this. Then one who goes to sleep in between is never woken.
+            round_.store(round + 1, std::memory_order_seq_cst);
             round_.notify_all();
             return;
         }
