@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace talus
 {
@@ -91,8 +92,7 @@ bool is_wall_pair(
         return false;
     const std::size_t end = std::size_t{pair.first} + pair.patches;
     if (end > contacts.patches.size() || pair.carried > pair.patches) return false;
-    const std::vector<std::int32_t> patches(
-        contacts.patches.begin() + pair.first, contacts.patches.begin() + static_cast<std::ptrdiff_t>(end));
+    const auto patches = std::span(contacts.patches).subspan(pair.first, pair.patches);
     return are_indices(patches, walls[static_cast<std::size_t>(pair.wall)].patch_count());
 }
 

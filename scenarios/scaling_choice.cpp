@@ -76,12 +76,12 @@ void choose_pressure_scaling(const scene::Scene& scene, Simulation& simulation)
         throw SceneError("solver.pressure_scaling",
             "pressure scaling goes with stabilisation \"projected\" only; with \"matched\" contacts are too soft "
             "for it to matter");
+    if (!rigid) return;
     const Contents all = contents_of(simulation);
     const double depth = depth_of(all, simulation.model);
     // A bed presses against its own images: that balances whatever its size, so nothing seems to keep the pressure from
     // growing. A flow down a periodic slope overlapped five times as much (hard case 35).
-    const bool useful =
-        rigid && !simulation.model.periodicity.any() && (depth >= deep || all.heaviest >= heavy * all.lightest);
+    const bool useful = !simulation.model.periodicity.any() && (depth >= deep || all.heaviest >= heavy * all.lightest);
     solver.pressure_scaling = open ? useful : asked.on;
     if (solver.pressure_scaling && depth >= very_deep && scene.solver.min_sweeps == 0)
         solver.min_sweeps = std::min(sweeps_in_very_deep, solver.max_sweeps);

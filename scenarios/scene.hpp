@@ -167,8 +167,7 @@ struct SolverTable {
             "relative residual that ends the sweeps: 5e-2, 1e-2, 1e-3, 1e-4, or a number");
         key("min_sweeps", self.min_sweeps, between(0, 10000), "",
             "least number of sweeps in a step; 0: 2 with matched, 3 with projected, 6 where pressures are scaled in a "
-            "bed "
-            "of a hundred grains or deeper");
+            "bed of a hundred grains or deeper");
         key("max_sweeps", self.max_sweeps, between(1, 1000000), "",
             "sweeps after which a step goes on unconverged, which is counted and told");
         key("restitution_threshold", self.restitution_threshold, at_least(0.0), "gravity x step",

@@ -23,6 +23,15 @@ void check_readme_table(const std::string& name, const std::string& table)
     CHECK((update || now == text)); // else: TALUS_UPDATE_TABLES=1 build/test_app "[NAME]"
 }
 
+std::string as_shown(std::string text, const std::vector<std::pair<std::string, std::string>>& patterns)
+{
+    std::vector<std::pair<std::string, std::string>> all = {{"t = [^ ,;]* s", "t = … s"},
+        {"in step [0-9]*", "in step …"}, {"hold [0-9]* bytes and holds [0-9]*", "hold … bytes and holds …"}};
+    all.insert(all.end(), patterns.begin(), patterns.end());
+    for (const auto& [pattern, shown] : all) text = std::regex_replace(text, std::regex(pattern), shown);
+    return text;
+}
+
 std::string table_cell(const std::string& text)
 {
     return std::regex_replace(text.substr(0, text.find('\n')), std::regex("\\|"), "\\|");

@@ -7,7 +7,6 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include <regex>
 #include <vector>
 
 namespace fs = std::filesystem;
@@ -99,22 +98,17 @@ void write_scene(const Workplace& place)
 
 const std::string run = "run scene.toml --threads 1 --until 2 --quiet";
 
-std::string with_placeholders(std::string text)
+std::string in_table(const std::string& text)
 {
-    for (const auto& [pattern, placeholder] : std::vector<std::pair<const char*, const char*>>{
-             {"t = [^ ,;]* s", "t = … s"}, {"in step [0-9]* \\([a-z_]*\\)", "in step … (…)"},
-             {"^[^ ]*/cup.stl", "/…/cup.stl"}, {"^out/[^ ]*: cannot", "out/…: cannot"},
-             {"hold [0-9]* bytes and holds [0-9]*", "hold … bytes and holds …"}})
-        text = std::regex_replace(text, std::regex(pattern), placeholder);
-    return text;
+    return table_cell(as_shown(text, {{"in step … \\([a-z_]*\\)", "in step … (…)"}, {"^[^ ]*/cup.stl", "/…/cup.stl"},
+                                         {"^out/[^ ]*: cannot", "out/…: cannot"}}));
 }
 
 /// What a resumed run makes of what the fault has left.
 std::string kept(const Workplace& place)
 {
     const Outcome resumed = place.talus("resume out --threads 1");
-    if (resumed.exit_code != 0)
-        return fmt::format("frames and metrics; `{}`", table_cell(with_placeholders(resumed.err)));
+    if (resumed.exit_code != 0) return fmt::format("frames and metrics; `{}`", in_table(resumed.err));
     CHECK_THAT(resumed.out, Contains("resumed from out/checkpoint."));
     const auto different = differences(place.path("whole"), place.path("out"));
     return different.empty() ? "all: resumed, the same bits" : "resumed, but different: " + different.front();
@@ -129,7 +123,7 @@ std::string row(const Fault& fault)
     const Outcome outcome = place.shell("RUN=\"$TALUS " + run + " -o out\"; " + fault.happens);
     CHECK(line_of(outcome.err + "|", "|") <= 2);
     if (!fault.mend.empty()) REQUIRE(place.shell(fault.mend).exit_code == 0);
-    const std::string sentence = table_cell(with_placeholders(outcome.err));
+    const std::string sentence = in_table(outcome.err);
     return fmt::format("| {} | {} | {} | {} |\n", fault.text, outcome.exit_code,
         sentence.empty() ? "–" : "`" + sentence + "`", kept(place));
 }
