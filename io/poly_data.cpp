@@ -2,6 +2,7 @@
 #include "io/poly_data.hpp"
 
 #include "io/input_error.hpp"
+#include "io/quiet_vtk.hpp"
 
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
@@ -12,6 +13,8 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <fmt/format.h>
+
+#include <new>
 
 namespace talus
 {
@@ -44,6 +47,7 @@ void add_point_cell(vtkPolyData& geometry, std::size_t count)
 std::string vtp_bytes(vtkPolyData& geometry, double time)
 {
     add_time_and_units(*geometry.GetFieldData(), time);
+    const QuietVtk vtk;
     vtkNew<vtkXMLPolyDataWriter> writer;
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
@@ -51,8 +55,12 @@ std::string vtp_bytes(vtkPolyData& geometry, double time)
     writer->SetHeaderTypeToUInt64();
     writer->SetInputData(&geometry);
     writer->WriteToOutputStringOn();
-    if (writer->Write() == 0 || writer->GetErrorCode() != vtkErrorCode::NoError)
-        throw OutputError(fmt::format("VTK cannot make the frame at {} s: error {}", time, writer->GetErrorCode()));
+    const bool written = writer->Write() != 0;
+    // The disk is a string here: it had no memory to grow.
+    if (writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError) throw std::bad_alloc();
+    if (!written || writer->GetErrorCode() != vtkErrorCode::NoError)
+        throw OutputError(
+            fmt::format("VTK cannot make the frame: {}", vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())));
     return writer->GetOutputString();
 }
 

@@ -66,7 +66,7 @@ void set_points(vtkPolyData& geometry, std::size_t count, auto&& place)
 void add_point_cell(vtkPolyData& geometry, std::size_t count);
 
 /// The bytes of a .vtp file: appended raw, LZ4, with `TimeValue` [s] and `units` in its field data.
-/// @throws OutputError where VTK fails
+/// @throws std::bad_alloc; OutputError where VTK fails
 std::string vtp_bytes(vtkPolyData& geometry, double time);
 
 } // namespace talus

@@ -3,14 +3,12 @@
 
 #include "io/input_error.hpp"
 #include "io/input_file.hpp"
+#include "io/quiet_vtk.hpp"
 #include "io/toml_value.hpp"
 #include "io/trial_run.hpp"
 
 #include <vtkErrorCode.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
@@ -27,63 +25,9 @@ namespace talus
 namespace
 {
 
-/// Keeps the first of VTK's errors instead of printing them.
-class ErrorCollector : public vtkOutputWindow
-{
-public:
-    static ErrorCollector* New();
-    vtkTypeMacro(ErrorCollector, vtkOutputWindow);
-
-    void DisplayText(const char*) override {}
-    void DisplayWarningText(const char*) override {}
-    void DisplayErrorText(const char* text) override
-    {
-        if (first_.empty()) first_ = text;
-    }
-
-    /// The first error without the place in VTK's source that it begins with; empty where there was none.
-    std::string sentence() const
-    {
-        constexpr std::string_view end_of_place = "): ";
-        const std::size_t place = first_.find(end_of_place);
-        std::string text = one_line(first_.substr(place == std::string::npos ? 0 : place + end_of_place.size()));
-        text.erase(text.find_last_not_of(' ') + 1);
-        return text;
-    }
-
-private:
-    std::string first_;
-};
-
-vtkStandardNewMacro(ErrorCollector);
-
-/// Has VTK's errors collected, and not logged, as long as it lives.
-class QuietVtk
-{
-public:
-    QuietVtk() : window_(vtkOutputWindow::GetInstance()), verbosity_(vtkLogger::GetCurrentVerbosityCutoff())
-    {
-        vtkOutputWindow::SetInstance(errors);
-        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-    }
-    ~QuietVtk()
-    {
-        vtkLogger::SetStderrVerbosity(verbosity_);
-        vtkOutputWindow::SetInstance(window_);
-    }
-    QuietVtk(const QuietVtk&) = delete;
-    QuietVtk& operator=(const QuietVtk&) = delete;
-
-    vtkNew<ErrorCollector> errors;
-
-private:
-    vtkSmartPointer<vtkOutputWindow> window_;
-    vtkLogger::Verbosity verbosity_;
-};
-
 template <class Reader> vtkSmartPointer<vtkPointSet> read_with(const std::filesystem::path& path)
 {
-    const QuietVtk quiet;
+    const QuietVtk vtk;
     vtkNew<Reader> reader;
     reader->SetFileName(path.c_str());
     try {
@@ -91,7 +35,7 @@ template <class Reader> vtkSmartPointer<vtkPointSet> read_with(const std::filesy
     } catch (const std::exception&) { // lists longer than there can be, or than there is memory for
         throw InputError(fmt::format("{}: VTK cannot read it: its sizes are too large to be true", path.string()));
     }
-    const std::string error = quiet.errors->sentence();
+    const std::string error = vtk.sentence();
     if (!error.empty()) throw InputError(fmt::format("{}: VTK cannot read it: {}", path.string(), error));
     if (reader->GetErrorCode() != vtkErrorCode::NoError)
         throw InputError(fmt::format(

@@ -76,6 +76,10 @@ const Fault full_disk = {"a disk that is full", "mkdir disk; mount -t tmpfs -o s
                                                 "-s disk/out out; $RUN; code=$?; rm out; cp -r disk/out out; "
                                                 "umount disk; (exit $code)"};
 
+/// From the second checkpoint on there is none.
+const Fault no_memory = {
+    "memory is used up", "export MEMORY_ENDS_WITH=out/checkpoint.previous; LD_PRELOAD=" TALUS_MEMORY_USED_UP " $RUN"};
+
 const std::string cup = R"(solid
 facet normal 0 0 1
 outer loop
@@ -179,6 +183,19 @@ TEST_CASE("a full disk loses no checkpoint", "[app][faults]")
     CHECK_THAT(told, Contains("| 4 | `out/…: cannot be written: No space left on device, at t = … s"));
     CHECK_THAT(told, Contains("the last checkpoint in out is of t = … s; to go on: talus resume out"));
     CHECK_THAT(told, Contains("the same bits"));
+}
+
+TEST_CASE("where memory is used up, the last checkpoint is kept", "[app][faults]")
+{
+    const Workplace place;
+    write_scene(place);
+    if (place.shell("MEMORY_ENDS_WITH=. LD_PRELOAD=" TALUS_MEMORY_USED_UP " $TALUS check scene.toml").exit_code == 0) {
+        WARN("skipped: this build brings a malloc of its own");
+        return;
+    }
+    const std::string told = row(no_memory);
+    CHECK_THAT(told, Contains("| 70 | `talus: there is not enough memory, at t = … s, in step … (…); the last "
+                              "checkpoint in out is of t = … s; to go on: talus resume out` | all: resumed, the same"));
 }
 
 TEST_CASE("a run killed at random moments again and again ends with the same bits", "[app][faults]")
