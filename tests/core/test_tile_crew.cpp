@@ -23,7 +23,7 @@ void linger(double microseconds)
 
 TEST_CASE("a crew takes each tile once, no colour before the one before it, and never sleeps for ever", "[tile_crew]")
 {
-    constexpr int calls = 5000;
+    constexpr int calls = 2000;
     const auto threads = GENERATE(1, 2, 3, 4);
     Tiles tiles;
     tiles.color_first = {0, 3, 3, 4, 9, 12, 13, 13, 20};
