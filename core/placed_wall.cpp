@@ -2,20 +2,11 @@
 #include "core/placed_wall.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace talus
 {
 namespace
 {
-
-std::array<Vec3, 8> corners(const Box& box)
-{
-    std::array<Vec3, 8> points;
-    for (std::size_t k = 0; k < 8; ++k)
-        for (int d = 0; d < 3; ++d) points[k][d] = (k >> d) & 1 ? box.max[d] : box.min[d];
-    return points;
-}
 
 /// The images of a wall; a plane is its own image, for it is as wide as the world.
 std::vector<Vec3> images_of(const Shape& shape, const Periodicity& periodicity)
@@ -103,7 +94,7 @@ double PlacedWall::fastest(const Box& box) const
     if (twist_.spin.isZero(0.0)) return twist_.velocity.norm() + most_gained;
     double speed = 0.0;
     for (const Vec3& image : images_)
-        for (const Vec3& x : corners(box)) speed = std::max(speed, twist_.at(x - image).norm());
+        for (const Vec3& x : box.corners()) speed = std::max(speed, twist_.at(x - image).norm());
     return speed + most_gained;
 }
 
@@ -147,7 +138,7 @@ double longest_way(const Pose& from, const Pose& to, const Box& box)
 {
     const Pose change = to.after(from.inverse());
     double longest = 0.0;
-    for (const Vec3& x : corners(box)) longest = std::max(longest, (change(x) - x).norm());
+    for (const Vec3& x : box.corners()) longest = std::max(longest, (change(x) - x).norm());
     return longest;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <array>
 #include <limits>
 
 namespace talus
@@ -45,6 +46,13 @@ struct Box {
     }
     Box shifted(const Vec3& shift) const { return {min + shift, max + shift}; }
     Box grown(double margin) const { return {min.array() - margin, max.array() + margin}; }
+    std::array<Vec3, 8> corners() const
+    {
+        std::array<Vec3, 8> points;
+        for (std::size_t k = 0; k < 8; ++k)
+            for (int d = 0; d < 3; ++d) points[k][d] = (k >> d) & 1 ? max[d] : min[d];
+        return points;
+    }
 };
 
 /// Any unit vector at a right angle to the unit vector n; the same one every time.

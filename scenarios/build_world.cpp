@@ -63,7 +63,10 @@ Periodicity build_periodicity(const scene::Scene& scene, double max_diameter)
     return periodicity;
 }
 
-/// Round all places of a wall during the run.
+namespace
+{
+
+/// Round all places of a wall during the run; a plane has none and gives an empty box.
 Box swept_bounds(const Wall& wall, double duration)
 {
     const Box still = bounds(wall.shape);
@@ -73,9 +76,6 @@ Box swept_bounds(const Wall& wall, double duration)
     for (int k = 0; k <= samples; ++k) swept.extend(placed(pose_at(wall.motion, duration * k / samples), still));
     return swept;
 }
-
-namespace
-{
 
 /// Round all walls, on their ways so far, fills, pours and outlets.
 Box content_bounds(const scene::Scene& scene, const Model& model, double duration)

@@ -17,9 +17,6 @@ void find_diameters(Model& model, const scene::Scene& scene);
 /// @throws SceneError where a corner is not given or the cell is shorter than four spheres
 Periodicity build_periodicity(const scene::Scene& scene, double max_diameter);
 
-/// The box round all places that a wall has during the run; a plane has none and gives an empty one.
-Box swept_bounds(const Wall& wall, double duration);
-
 /// The lower corner of walls, fills, pours and outlets as the scene begins, whatever its duration.
 Vec3 scene_corner(const scene::Scene& scene, const Model& model);
 

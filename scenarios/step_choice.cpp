@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/step_choice.hpp"
 
-#include "core/placed_wall.hpp"
 #include "core/stabilisation.hpp"
-#include "scenarios/build_world.hpp"
 #include "scenarios/piston_speed.hpp"
 #include "scenarios/scene_error.hpp"
+#include "scenarios/wall_speed.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +59,8 @@ double fall_height(const Simulation& simulation)
     for (const auto& wall : model.walls) {
         const auto* plane = std::get_if<Plane>(&wall.shape);
         if (!plane) {
-            span(swept_bounds(wall, simulation.duration));
+            // Where it stands at the start: what falls behind one that sinks meets it at twice its own speed at most.
+            span(bounds(wall.shape));
             floor = true;
         } else if (plane->normal.dot(up) > level) {
             lowest = std::min(lowest, plane->point.dot(up));
@@ -77,49 +77,6 @@ double fall_height(const Simulation& simulation)
         lowest = std::min(lowest, box.center().dot(up) + 0.5 * box.extent().dot(up.cwiseAbs()));
     }
     return std::max(0.0, highest - lowest);
-}
-
-/// When to look how fast a wall is: evenly over the run but for a jitter, so that no shake is always seen at its ends,
-/// and where a part or a line of a table begins, however short it is.
-std::vector<double> times_to_look(const WallMotion& motion, double duration)
-{
-    constexpr int samples = 1000;
-    std::vector<double> times;
-    for (int k = 0; k < samples; ++k) times.push_back(duration / samples * (k + std::fmod(0.618034 * k, 1.0)));
-    const auto add_beginnings = [&](const auto& part) {
-        if constexpr (requires { part.waypoints; })
-            for (const auto& waypoint : part.waypoints) times.push_back(waypoint.time);
-        else
-            times.push_back(part.span.from);
-    };
-    for (const auto& part : motion) std::visit(add_beginnings, part);
-    std::erase_if(times, [&](double time) { return !(time < duration); });
-    return times;
-}
-
-/// Of any point of a moving wall, as far as it lies where spheres may be [m/s].
-double fastest_wall(const Simulation& simulation)
-{
-    const auto& model = simulation.model;
-    double fastest = 0.0;
-    for (const auto& wall : model.walls) {
-        if (wall.motion.empty()) continue;
-        // Short against the time between two looks: a shake must not cancel out.
-        const double moment = 1e-5 * simulation.duration;
-        // A plane is looked at where the spheres are, any other wall at the corners of its box, which move with it.
-        const bool endless = bounds(wall.shape).empty();
-        Box box = bounds(wall.shape);
-        if (endless)
-            for (std::size_t i = 0; i < simulation.state.count(); ++i) box.extend(simulation.state.position[i]);
-        if (box.empty()) continue;
-        for (const double time : times_to_look(wall.motion, simulation.duration)) {
-            const Pose now = pose_at(wall.motion, time), later = pose_at(wall.motion, time + moment);
-            const double way =
-                endless ? longest_way(now, later, box) : longest_way(Pose{}, now.inverse().after(later), box);
-            fastest = std::max(fastest, way / moment);
-        }
-    }
-    return fastest;
 }
 
 double fastest_speed(const Simulation& simulation)

@@ -239,6 +239,79 @@ TEST_CASE("a wall that moves adds the speed of its fastest point to that of the 
         motion.table = {{0.1, Vec3::Zero()}, {0.2, Vec3(0.3, 0, 0)}, {0.9, Vec3::Zero()}};
         expected = 3.0;
     }
-    // Its way makes the fall longer too where it goes down, not in these.
-    CHECK(choose_step(scene, build_scene(scene)).fastest_speed - still == Approx(expected).epsilon(0.01));
+    SECTION("one that is pushed first and turned later: never both")
+    {
+        motion.kind = "translate";
+        motion.velocity = Vec3(0, 0, 2.0);
+        motion.to = 0.1;
+        auto& later = scene.wall[0].motion.emplace_back();
+        later.kind = "turn";
+        later.axis = Vec3::UnitZ();
+        later.rate = 0.001;
+        later.from = 0.2;
+        expected = 2.0;
+    }
+    SECTION("one that is shaken on an arm that turns: both, and the arm is longer by the amplitude")
+    {
+        motion.kind = "shake";
+        motion.amplitude = Vec3(0.02, 0, 0);
+        motion.frequency = 10.0;
+        auto& turn = scene.wall[0].motion.emplace_back();
+        turn.kind = "turn";
+        turn.axis = Vec3::UnitZ();
+        turn.rate = 30.0;
+        expected = 0.02 * 2.0 * std::numbers::pi * 10.0 + 30.0 * (std::hypot(0.05, 0.05) + 0.02);
+    }
+    SECTION("a plane that turns: where spheres are, not at its end")
+    {
+        scene.wall.resize(2);
+        scene.wall[1] = scene.wall[0];
+        scene.wall[1].name = "flap";
+        scene.wall[1].shape = "plane";
+        scene.wall[1].normal = Vec3(0, 0, 1);
+        scene.wall[0].motion.clear();
+        auto& turn = scene.wall[1].motion[0];
+        turn.kind = "turn";
+        turn.point = Vec3::Zero();
+        turn.axis = Vec3::UnitZ();
+        turn.rate = 30.0;
+        Box spheres;
+        for (const Vec3& x : build_scene(scene).state.position) spheres.extend(x);
+        expected = 30.0 * std::hypot(spheres.max.x(), spheres.max.y());
+    }
+    CHECK(choose_step(scene, build_scene(scene)).fastest_speed - still == Approx(expected));
+}
+
+TEST_CASE("a moving wall's speed, and so the step, does not depend on when the run ends", "[step_choice]")
+{
+    auto scene = small_scene();
+    scene.time.duration = 0.0123;
+    auto& motion = scene.wall[0].motion.emplace_back();
+    SECTION("shaken")
+    {
+        motion.kind = "shake";
+        motion.amplitude = Vec3(0, 0, 0.03);
+        motion.frequency = 37.0;
+    }
+    SECTION("turned")
+    {
+        motion.kind = "turn";
+        motion.axis = Vec3(1, 2, 3).normalized();
+        motion.rate = 77.0;
+    }
+    SECTION("sunk")
+    {
+        motion.kind = "translate";
+        motion.velocity = Vec3(0, 0, -4.0);
+    }
+    SECTION("knocked after the end of the shorter run")
+    {
+        motion.kind = "table";
+        motion.table = {{0.5, Vec3::Zero()}, {0.5001, Vec3(0.0004, 0, 0)}};
+    }
+    const auto early = choose_step(scene, build_scene(scene));
+    scene.time.duration = 10.0;
+    const auto late = choose_step(scene, build_scene(scene));
+    CHECK(late.step == early.step);
+    CHECK(early.step < 0.008 * std::sqrt(0.01 / 9.81)); // the speed decides
 }
