@@ -213,6 +213,24 @@ void add_solve(CLI::App& app, CommandLine& line)
     });
 }
 
+void add_study(CLI::App& app, CommandLine& line)
+{
+    CLI::App* verb = app.add_subcommand("study", "Run a scene under many settings: error against cost, and advice");
+    add_scene_and_seed(*verb, line);
+    add_set_option(*verb, line);
+    verb->add_option("--settings", line.study, "A study file, of what to try and from when on; 'talus keys study'")
+        ->type_name("FILE");
+    verb->add_option("-o,--out", line.out, "Output folder [out/study-NAME]")->type_name("DIR")->take_last();
+    verb->add_flag("--force", line.force, "Begin anew where the folder holds a study");
+    verb->add_option("--threads", line.threads, "Runs at a time, each on one thread [all cores]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+    add_quiet_flag(*verb, line);
+    verb->footer("Example: talus study hopper --set fill.0.count=2000\n"
+                 "A study that was stopped goes on when the same command is given again.");
+    verb->callback([&] { line.verb = CommandLine::Verb::study; });
+}
+
 } // namespace
 
 std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
@@ -229,6 +247,7 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
     add_list(app, line);
     add_dump(app, line);
     add_solve(app, line);
+    add_study(app, line);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
@@ -240,7 +259,7 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
             "{}; see 'talus {}--help'", error.what(), verbs.empty() ? "" : verbs.front()->get_name() + " "));
     }
     if (app.get_subcommands().empty())
-        throw UsageError("say what to do: run, resume, check, keys, list, dump or solve; see 'talus --help'");
+        throw UsageError("say what to do: run, resume, check, keys, list, dump, solve or study; see 'talus --help'");
     return line;
 }
 

@@ -34,7 +34,7 @@ struct SolveRequest {
 
 /// What the user asked for.
 struct CommandLine {
-    enum class Verb { run, resume, check, keys, list, dump, solve };
+    enum class Verb { run, resume, check, keys, list, dump, solve, study };
     Verb verb = Verb::list;
     std::string scene;                  ///< a path, or a name in scenarios/
     std::string table;                  ///< of keys: the one to show; empty: all
@@ -43,8 +43,9 @@ struct CommandLine {
     std::optional<double> until; ///< [s]
     double at = 0.0;             ///< of dump [s]
     SolveRequest solve;
-    std::filesystem::path out; ///< of run: empty for out/<scene name>; of resume: the run's folder; else a file
-    std::filesystem::path log; ///< empty: no log file
+    std::filesystem::path study; ///< file of what to try; empty: the usual
+    std::filesystem::path out;   ///< of run: empty for out/<scene name>; of resume: the run's folder; else a file
+    std::filesystem::path log;   ///< empty: no log file
     bool force = false;
     bool relax = false;
     int threads = 0; ///< 0: as many as OpenMP takes, all cores unless its environment says otherwise

@@ -9,6 +9,7 @@
 #include "app/run_scene.hpp"
 #include "app/short_spins.hpp"
 #include "app/solve_problem.hpp"
+#include "app/study/study.hpp"
 #include "app/terminal.hpp"
 #include "app/whereabouts.hpp"
 #include "io/input_error.hpp"
@@ -42,6 +43,8 @@ ExitCode execute(const CommandLine& line)
         return dump_step(line);
     case CommandLine::Verb::solve:
         return solve_problem(line);
+    case CommandLine::Verb::study:
+        return study_scene(line);
     }
     return ExitCode::done;
 }

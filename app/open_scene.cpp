@@ -11,12 +11,10 @@
 
 namespace talus
 {
-namespace
-{
 
 namespace fs = std::filesystem;
 
-fs::path find_scene(const std::string& scene)
+fs::path scene_path(const std::string& scene)
 {
     if (fs::is_regular_file(scene)) return scene;
     const fs::path supplied = fs::path(TALUS_SCENARIOS_FOLDER) / (scene + ".toml");
@@ -27,8 +25,6 @@ fs::path find_scene(const std::string& scene)
     throw UsageError(
         fmt::format("there is no scene '{}': it is neither a file nor one of {}", scene, fmt::join(names, ", ")));
 }
-
-} // namespace
 
 SceneFile read_scene_as_asked(const fs::path& path, const CommandLine& line)
 {
@@ -52,7 +48,7 @@ OpenedScene build_opened(SceneFile file, std::string name)
 
 OpenedScene open_scene(const CommandLine& line)
 {
-    const fs::path path = find_scene(line.scene);
+    const fs::path path = scene_path(line.scene);
     return build_opened(read_scene_as_asked(path, line), path.stem());
 }
 

@@ -19,6 +19,10 @@ struct OpenedScene {
     Simulation simulation;
 };
 
+/// The file of a scene that is named as on the command line.
+/// @throws UsageError where there is no such scene
+std::filesystem::path scene_path(const std::string& scene);
+
 /// Finds, reads and builds the scene that the command line names, with what the command line changes in it.
 /// @throws InputError with file, line and column; UsageError where there is no such scene
 OpenedScene open_scene(const CommandLine& line);

@@ -9,8 +9,6 @@
 #include "io/lost_spheres.hpp"
 #include "scenarios/scene_checks.hpp"
 
-#include <algorithm>
-
 namespace talus
 {
 namespace
@@ -50,9 +48,7 @@ RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbo
 
 RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive* checkpoint)
     : simulation_(opened.simulation), folder_(folder), origin_(origin_of(opened.name, opened.scene)),
-      remove_escaped_(opened.scene.world.on_escape == "remove"),
-      go_on_pressed_(opened.scene.solver.on_no_solution == "go_on"),
-      wall_interval_(opened.scene.checkpoint.wall_interval), verbosity_(verbosity),
+      policy_(opened.scene), wall_interval_(opened.scene.checkpoint.wall_interval), verbosity_(verbosity),
       metrics_schedule_(opened.scene.time.metrics_interval), particle_schedule_(opened.scene.time.frame_interval),
       contact_schedule_(opened.scene.output.contact_interval), checkpoint_schedule_(opened.scene.checkpoint.interval),
       frames_(folder), watch_(opened.simulation.model), progress_(verbosity, opened.simulation)
@@ -97,8 +93,8 @@ RunEnd RunLoop::run()
 {
     RunEnd end;
     StepReport report;
-    while (!is_over() && !stops_the_run(report) && end.signal == 0) {
-        take_out_escaped(report);
+    while (!is_over() && !policy_.stops(report) && end.signal == 0) {
+        clear_away(report);
         end.signal = stop_signal();
         if (end.signal != 0 || next_step_is_last() || checkpoint_is_due()) write_checkpoint();
         if (end.signal != 0) break;
@@ -107,7 +103,7 @@ RunEnd RunLoop::run()
         tell(report);
     }
     if (end.signal == 0) write_the_rest(report);
-    if (stops_the_run(report)) end.incidents = report.incidents;
+    if (policy_.stops(report)) end.incidents = report.incidents;
     progress_.finish();
     clock_.begin(RunPhase::output); // so that the phases add up to the whole
     return end;
@@ -123,18 +119,11 @@ bool RunLoop::next_step_is_last() const
     return has_reached(simulation_, simulation_.duration, 1);
 }
 
-bool RunLoop::stops_the_run(const StepReport& report) const
-{
-    return std::ranges::any_of(report.incidents, [&](const Incident& incident) {
-        const bool may_be_removed = incident.kind == Incident::Kind::escaped && !incident.of_piston();
-        return !(may_be_removed && remove_escaped_) && !(incident.kind == Incident::Kind::pressed && go_on_pressed_);
-    });
-}
-
-void RunLoop::take_out_escaped(const StepReport& report)
+/// What escaped, and need not end the run.
+void RunLoop::clear_away(const StepReport& report)
 {
     if (report.incidents.empty()) return;
-    remove_escaped(simulation_.escaped, simulation_.state, simulation_.contacts, simulation_.model, report.incidents);
+    take_out_escaped(simulation_, report);
     write_lost(folder_, simulation_.escaped);
 }
 
@@ -145,7 +134,7 @@ StepReport RunLoop::make_step()
     StepReport report = step(simulation_, [this](Phase phase) { clock_.begin(phase); });
     clock_.begin(RunPhase::output);
     statistics_.add(report, simulation_);
-    if (!stops_the_run(report))
+    if (!policy_.stops(report))
         for (const auto& sensor : simulation_.sensors) sensor->watch(snapshot(simulation_, report));
     return report;
 }
@@ -156,7 +145,7 @@ void RunLoop::tell(const StepReport& report)
         progress_.finish();
         if (verbosity_ != Verbosity::quiet) warn("t = {:.6g} s: {}\n", simulation_.state.time, warning);
     }
-    if (!stops_the_run(report)) tell_incidents(report);
+    if (!policy_.stops(report)) tell_incidents(report);
     progress_.update(simulation_, report, clock_.wall());
 }
 
@@ -210,7 +199,7 @@ void RunLoop::persist(Archive& archive, std::uint64_t& metrics_size)
 
 void RunLoop::write_what_is_due(const StepReport& report)
 {
-    if (stops_the_run(report)) return; // the end of the run writes it all, but asks no sensor about a broken state
+    if (policy_.stops(report)) return; // the end of the run writes it all, but asks no sensor about a broken state
     const double time = simulation_.state.time;
     if (standing_walls(simulation_.model, time) != standing_) write_walls();
     if (metrics_schedule_.due(time)) {
@@ -229,9 +218,9 @@ void RunLoop::write_the_rest(const StepReport& report)
     const std::int64_t steps = simulation_.state.steps;
     if (last_particles_ != steps) write_particles();
     if (steps == 0) return; // contacts and metrics speak of a step
-    if (last_contacts_ != steps && !stops_the_run(report)) write_contacts();
+    if (last_contacts_ != steps && !policy_.stops(report)) write_contacts();
     if (last_metrics_ != steps) {
-        if (!stops_the_run(report)) sample_sensors(report);
+        if (!policy_.stops(report)) sample_sensors(report);
         write_metrics(report);
     }
     write_tables();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/incident_policy.hpp"
 #include "app/open_scene.hpp"
 #include "app/phase_clock.hpp"
 #include "app/progress.hpp"
@@ -59,8 +60,7 @@ private:
 
     bool is_over() const;
     bool next_step_is_last() const;
-    bool stops_the_run(const StepReport& report) const;
-    void take_out_escaped(const StepReport& report);
+    void clear_away(const StepReport& report);
     StepReport make_step();
     void write_what_is_due(const StepReport& report);
     void write_the_rest(const StepReport& report);
@@ -81,8 +81,7 @@ private:
     Simulation& simulation_;
     std::filesystem::path folder_;
     RunOrigin origin_;
-    bool remove_escaped_;
-    bool go_on_pressed_;
+    IncidentPolicy policy_;
     double wall_interval_; ///< between checkpoints [s]
     Verbosity verbosity_;
     Schedule metrics_schedule_, particle_schedule_, contact_schedule_, checkpoint_schedule_;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/energy_balance.hpp"
-#include "app/residual_histogram.hpp"
+#include "app/log_histogram.hpp"
 #include "io/summary.hpp"
 #include "scenarios/simulation.hpp"
 
@@ -27,7 +27,7 @@ public:
     }
 
 private:
-    ResidualHistogram residuals_;
+    LogHistogram residuals_;
     std::int64_t steps_at_cap_ = 0;
     double overlap_sum_ = 0.0, overlap_count_ = 0.0; ///< over all overlapping contacts of all steps
     double worst_overlap_ = 0.0, worst_overlap_time_ = 0.0;

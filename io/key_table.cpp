@@ -6,6 +6,7 @@
 #include "io/nearest_name.hpp"
 #include "io/toml_text.hpp"
 #include "io/toml_value.hpp"
+#include "scenarios/study.hpp"
 
 #include <fmt/format.h>
 
@@ -113,7 +114,10 @@ std::string text_of(const Section& section)
 std::string key_table(const std::string& table)
 {
     Sections sections;
-    sections.add("", scene::Scene());
+    if (table == "study")
+        sections.add(table, scene::Study());
+    else
+        sections.add("", scene::Scene());
     std::string text;
     std::vector<std::string_view> tables;
     for (const Section& section : sections.list()) {

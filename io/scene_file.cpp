@@ -6,47 +6,17 @@
 #include "io/sieve_file.hpp"
 #include "io/sphere_file.hpp"
 #include "io/stl.hpp"
+#include "io/toml_file.hpp"
 #include "io/toml_overrides.hpp"
 #include "io/toml_value.hpp"
 
 #include <fmt/format.h>
-
-#include <fstream>
-#include <iterator>
 
 namespace talus
 {
 
 namespace
 {
-
-/// Far above any scene, which holds numbers and names; geometry lies in files of its own.
-constexpr std::uintmax_t largest_scene_file = 1 << 20;
-
-std::string read_text(const std::filesystem::path& path)
-{
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) throw InputError(fmt::format("{}: no such file", path.string()));
-    if (!std::filesystem::is_regular_file(path, error))
-        throw InputError(fmt::format("{}: not a file that holds a scene", path.string()));
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error || size > largest_scene_file)
-        throw InputError(
-            fmt::format("{}: a scene file has at most {} bytes, this one {}", path.string(), largest_scene_file, size));
-    std::ifstream stream(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream) throw InputError(fmt::format("{}: the file cannot be read", path.string()));
-    return text;
-}
-
-toml::table parse_file(const std::filesystem::path& path)
-{
-    try {
-        return toml::parse(read_text(path), path.string());
-    } catch (const toml::parse_error& error) {
-        throw InputError(fmt::format("{}: {}", place_in(error.source()), describe_error(error)));
-    }
-}
 
 /// Makes the path of a file, named in relation to the scene's folder, absolute, so that the resolved scene can be read
 /// from any folder.
@@ -144,7 +114,7 @@ scene::Scene parse_scene(const std::string& text)
 
 SceneFile read_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides)
 {
-    toml::table root = parse_file(path);
+    toml::table root = parse_toml_file(path, "a scene");
     for (const std::string& key_and_value : overrides) apply_override(root, key_and_value);
     SceneFile file{{}, path, {}};
     file.scene = read_tables(root, file.places);

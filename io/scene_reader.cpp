@@ -131,9 +131,8 @@ private:
         for (const auto& [name, node] : table) {
             if (std::ranges::find(known, name.str()) != known.end()) continue;
             const std::string nearest = did_you_mean(name.str(), known);
-            const std::string where = at.title.empty() ? "in the scene" : "in " + at.title;
-            throw InputError(fmt::format("{}: unknown key '{}' {}{}", place_in(name.source()), one_line(name.str()),
-                where, nearest.empty() ? fmt::format("; its keys are {}", enumerate_names(known, "and")) : nearest));
+            throw InputError(fmt::format("{}: unknown key '{}' in {}{}", place_in(name.source()), one_line(name.str()),
+                at.title, nearest.empty() ? fmt::format("; its keys are {}", enumerate_names(known, "and")) : nearest));
         }
     }
 
@@ -166,8 +165,16 @@ private:
 scene::Scene read_tables(const toml::table& root, Places& places)
 {
     scene::Scene scene;
-    SceneReader(places).read_table(root, {}, scene);
+    SceneReader(places).read_table(root, {"", "the scene"}, scene);
     return scene;
+}
+
+scene::Study read_study_tables(const toml::table& root, Places& places)
+{
+    scene::Study study;
+    if (root.contains("vary")) study.vary.clear();
+    SceneReader(places).read_table(root, {"", "the study"}, study);
+    return study;
 }
 
 } // namespace talus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenarios/scene.hpp"
+#include "scenarios/study.hpp"
 
 #include <toml++/toml.h>
 
@@ -17,5 +18,8 @@ using Places = std::map<std::string, std::string>;
 /// Reads every key of the scene from the tables of a file, and notes where each stands.
 /// @throws InputError on the first key that is unknown, missing or not allowed
 scene::Scene read_tables(const toml::table& root, Places& places);
+
+/// Likewise every key of a study.
+scene::Study read_study_tables(const toml::table& root, Places& places);
 
 } // namespace talus

@@ -27,7 +27,7 @@ TEST_CASE("wrong arguments end with 2 and one sentence", "[app][command line]")
 TEST_CASE("every verb has help with an example", "[app][command line]")
 {
     const Workplace place;
-    const std::string verb = GENERATE(as<std::string>{}, "run", "resume", "check", "keys", "list", "dump", "solve");
+    const std::string verb = GENERATE(as<std::string>{}, "run", "resume", "check", "keys", "list", "dump", "solve", "study");
     const Outcome outcome = place.talus(verb + " --help");
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.out, Contains("Example: talus " + verb));

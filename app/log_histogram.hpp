@@ -9,23 +9,23 @@
 namespace talus
 {
 
-/// How often a residual was how large: mean, percentiles and worst of any number of steps in a fixed size.
-class ResidualHistogram
+/// How often a quantity from 0 up was how large: mean, percentiles and worst of any number of values in a fixed size.
+class LogHistogram
 {
 public:
-    void add(double residual);
+    void add(double value);
 
     double mean() const;
     double worst() const { return worst_; }
 
-    /// What this share of the residuals does not exceed, at most 2.4 % too large; 0 where there are none.
+    /// What this share of the values does not exceed, at most 2.4 % too large; 0 where there are none.
     double percentile(double share) const;
 
     void persist(Archive& archive) { archive(counts_, count_, sum_, worst_); }
 
 private:
     static constexpr int bins_per_decade = 100;
-    static constexpr int least_exponent = -9;  ///< smaller residuals share the first bin
+    static constexpr int least_exponent = -9;  ///< smaller values share the first bin
     static constexpr int largest_exponent = 3; ///< larger ones the last
 
     std::array<std::int64_t, bins_per_decade*(largest_exponent - least_exponent) + 1> counts_ = {};

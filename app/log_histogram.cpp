@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/residual_histogram.hpp"
+#include "app/log_histogram.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,23 +7,23 @@
 namespace talus
 {
 
-void ResidualHistogram::add(double residual)
+void LogHistogram::add(double value)
 {
     // bin k > 0 holds those up to 10^(least_exponent + k / bins_per_decade)
-    const double bins_up = residual > 0.0 ? std::ceil(bins_per_decade * (std::log10(residual) - least_exponent)) : 0.0;
+    const double bins_up = value > 0.0 ? std::ceil(bins_per_decade * (std::log10(value) - least_exponent)) : 0.0;
     const double bin = std::clamp(bins_up, 0.0, static_cast<double>(counts_.size() - 1));
     ++counts_[static_cast<std::size_t>(bin)];
     ++count_;
-    sum_ += residual;
-    worst_ = std::max(worst_, residual);
+    sum_ += value;
+    worst_ = std::max(worst_, value);
 }
 
-double ResidualHistogram::mean() const
+double LogHistogram::mean() const
 {
     return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0;
 }
 
-double ResidualHistogram::percentile(double share) const
+double LogHistogram::percentile(double share) const
 {
     const double wanted = share * static_cast<double>(count_);
     std::int64_t reached = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/residual_histogram.hpp"
+#include "app/log_histogram.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -8,13 +8,13 @@
 #include <random>
 #include <vector>
 
-using talus::ResidualHistogram;
+using talus::LogHistogram;
 
 TEST_CASE("percentiles of residuals are those of the sorted list to 2.4 %, mean and worst exact", "[app][statistics]")
 {
     std::mt19937_64 random(1);
     std::normal_distribution<double> exponent(-2.0, 1.0);
-    ResidualHistogram histogram;
+    LogHistogram histogram;
     std::vector<double> all;
     double sum = 0.0;
     for (int k = 0; k < 10000; ++k) {
@@ -35,7 +35,7 @@ TEST_CASE("percentiles of residuals are those of the sorted list to 2.4 %, mean 
 
 TEST_CASE("steps without contacts have residual 0, and no steps have none", "[app][statistics]")
 {
-    ResidualHistogram histogram;
+    LogHistogram histogram;
     CHECK(histogram.percentile(0.95) == 0.0);
     CHECK(histogram.mean() == 0.0);
     for (int k = 0; k < 100; ++k) histogram.add(0.0);

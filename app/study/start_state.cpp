@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/study/start_state.hpp"
+
+#include "io/checkpoint.hpp"
+#include "io/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace talus
+{
+namespace
+{
+
+/// All that changes but the sensors.
+void persist_without_sensors(Archive& archive, Simulation& simulation)
+{
+    auto sensors = std::move(simulation.sensors);
+    simulation.sensors.clear();
+    archive(simulation);
+    simulation.sensors = std::move(sensors);
+}
+
+} // namespace
+
+void keep_state(Simulation& simulation, const std::filesystem::path& folder)
+{
+    Archive archive;
+    persist_without_sensors(archive, simulation);
+    std::filesystem::create_directories(folder);
+    write_checkpoint(folder, TALUS_VERSION, archive.bytes());
+}
+
+void put_state(Simulation& simulation, const std::filesystem::path& folder)
+{
+    Checkpoint checkpoint = read_checkpoint(folder, TALUS_VERSION);
+    try {
+        Archive archive(std::move(checkpoint.state));
+        persist_without_sensors(archive, simulation);
+    } catch (const ArchiveError& error) {
+        throw InputError(fmt::format("{}: cannot be put back: {}", checkpoint.path.string(), error.what()));
+    }
+    const double h = simulation.model.time_step;
+    simulation.state.steps = std::llround(simulation.state.time / h);
+    simulation.state.time = static_cast<double>(simulation.state.steps) * h;
+}
+
+} // namespace talus

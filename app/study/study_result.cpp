@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/study/study_result.hpp"
+
+#include "core/statistics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace talus
+{
+namespace
+{
+
+constexpr double sure = 1.96; ///< standard errors
+constexpr double sensor_target = 0.01;
+constexpr double notably_cheaper = 0.95; ///< CPU times scatter by some per cent
+constexpr double stands_out = 5.0;       ///< standard errors
+
+/// What a run tells of itself.
+const std::vector<ErrorKind> own_kinds = {
+    {"velocity_error", "sqrt(g d)", "velocities after one step, against the same step solved to the end", false, true},
+    {"residual", "1", "relative residual of the steps, mean"},
+    {"residual_95", "1", "95 % of the steps have less"},
+    {"steps_at_cap", "1", "share of the steps that stopped at the cap of sweeps"},
+    {"overlap", "d", "mean over the loaded contacts that overlap"},
+    {"overlap_95", "d", "95 % of them have less", false, true},
+    {"worst_overlap", "d", "at any look"},
+    {"energy_gained", "M g d/s", "rises of the energy that nothing put in"},
+    {"momentum_error", "M g h", "worst step: gain of momentum less gravity and walls"},
+};
+
+/// What a run should share with the reference.
+const std::vector<ErrorKind> shared_kinds = {
+    {"height", "d", "of the packing (twice that of the centre of mass), against the reference"},
+    {"creep", "d/s", "median way of the spheres by the time, against the reference", false, true},
+    {"restlessness", "m g d", "kinetic energy of a sphere without the liveliest 2 %, against the reference"},
+    {"support_swing", "M g", "rms swing of the force by walls, against the reference"},
+};
+
+const ErrorKind profile_kind = {"force_profile", "M g",
+    "mean force by walls and through level cuts, the worst of them, against the reference", false, true};
+
+const Measurement* find(const StudyRow& row, const std::string& name)
+{
+    const auto found = std::ranges::find(row.findings, name, &Measurement::name);
+    return found == row.findings.end() ? nullptr : &*found;
+}
+
+bool is_named_in(const std::vector<ErrorKind>& kinds, const std::string& name)
+{
+    return std::ranges::find(kinds, name, &ErrorKind::name) != kinds.end();
+}
+
+std::vector<ErrorKind> kinds_of(const StudyRow& reference)
+{
+    std::vector<ErrorKind> kinds = own_kinds;
+    kinds.insert(kinds.end(), shared_kinds.begin(), shared_kinds.end());
+    kinds.push_back(profile_kind);
+    for (const Measurement& m : reference.findings) {
+        if (is_named_in(kinds, m.name)) continue;
+        const std::string meaning =
+            fmt::format("of the sensor, as a share of the reference's {:.4g} {}", m.value, m.unit);
+        kinds.push_back({m.name, "1", meaning, true, std::abs(m.value) > stands_out * m.spread});
+    }
+    return kinds;
+}
+
+double worst_difference(const std::vector<double>& one, const std::vector<double>& other)
+{
+    double worst = 0.0;
+    for (std::size_t k = 0; k < std::min(one.size(), other.size()); ++k)
+        worst = std::max(worst, std::abs(one[k] - other[k]));
+    return worst;
+}
+
+/// The signed error of a kind in one row; not a number where it cannot be told.
+ErrorValue error_in(const StudyRow& row, const StudyRow& reference, const ErrorKind& kind)
+{
+    const double unknown = std::nan("");
+    if (kind.name == profile_kind.name) return {worst_difference(row.profile, reference.profile), 0.0};
+    const Measurement* m = find(row, kind.name);
+    if (!m) return {unknown, unknown};
+    if (is_named_in(own_kinds, kind.name)) return {m->value, 0.0};
+    const Measurement* r = find(reference, kind.name);
+    if (!r) return {unknown, unknown};
+    const double unit = kind.of_sensor ? std::abs(r->value) : 1.0;
+    const auto known = [](double spread) { return std::isfinite(spread) ? spread : 0.0; };
+    return {(m->value - r->value) / unit, std::hypot(known(m->spread), known(r->spread)) / unit};
+}
+
+const StudyRow* find_row(const std::vector<StudyRow>& rows, const std::string& setting, std::int64_t seed)
+{
+    const auto found =
+        std::ranges::find_if(rows, [&](const StudyRow& row) { return row.setting == setting && row.seed == seed; });
+    return found == rows.end() ? nullptr : &*found;
+}
+
+ErrorValue over_seeds(const std::vector<ErrorValue>& errors)
+{
+    MeanAndError mean;
+    double squares = 0.0;
+    for (const ErrorValue& error : errors) {
+        mean.add(error.value);
+        squares += error.spread * error.spread;
+    }
+    const double own = std::sqrt(squares) / static_cast<double>(errors.size());
+    const double scatter = errors.size() > 1 ? mean.standard_error() : 0.0;
+    return {std::abs(mean.mean()), std::max(own, scatter)};
+}
+
+StudyPoint point_of(const Setting& setting, const std::vector<StudyRow>& rows, const std::vector<ErrorKind>& kinds)
+{
+    StudyPoint point{.setting = setting.name};
+    std::vector<std::vector<ErrorValue>> errors(kinds.size());
+    double count = 0.0;
+    for (const StudyRow& row : rows) {
+        if (row.setting != setting.name) continue;
+        const StudyRow* reference = find_row(rows, reference_name, row.seed);
+        if (row.status != "done") point.status = row.status;
+        if (row.status != "done" || !reference || reference->status != "done") continue;
+        count += 1.0;
+        point.cpu += row.cpu;
+        point.updates += row.updates;
+        point.memory = std::max(point.memory, row.memory);
+        for (std::size_t k = 0; k < kinds.size(); ++k) errors[k].push_back(error_in(row, *reference, kinds[k]));
+    }
+    if (count == 0.0 && point.is_done()) point.status = "not run, or without a reference";
+    if (!point.is_done()) return point;
+    point.cpu /= count;
+    point.updates /= count;
+    for (const auto& of_kind : errors) point.errors.push_back(over_seeds(of_kind));
+    return point;
+}
+
+/// Whether two settings came to the same bits for every seed: then they are one.
+bool are_the_same_run(const std::vector<StudyRow>& rows, const std::string& one, const std::string& other)
+{
+    const auto same_number = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+    const auto same = [&](const Measurement& a, const Measurement& b) { return same_number(a.value, b.value); };
+    return std::ranges::all_of(rows, [&](const StudyRow& row) {
+        if (row.setting != one) return true;
+        const StudyRow* match = find_row(rows, other, row.seed);
+        return match && row.updates == match->updates && std::ranges::equal(row.findings, match->findings, same);
+    });
+}
+
+/// The cheapest setting, but the reference, that the question is true of.
+std::optional<std::size_t> cheapest(const StudyResult& result, auto&& is_good)
+{
+    std::optional<std::size_t> best;
+    for (std::size_t i = 1; i < result.points.size(); ++i) {
+        const StudyPoint& point = result.points[i];
+        if (point.is_done() && is_good(point) && (!best || point.cpu < result.points[*best].cpu)) best = i;
+    }
+    return best;
+}
+
+std::string in_unit(double value, const std::string& unit)
+{
+    return unit == "1" ? fmt::format("{:.2g}", value) : fmt::format("{:.2g} {}", value, unit);
+}
+
+/// "use X: 2.1 x faster than the default", or that the default it is.
+std::string choice(const StudyResult& result, std::size_t best)
+{
+    const StudyPoint& point = result.points[best];
+    if (best == 1 || std::abs(point.cpu / result.standard().cpu - 1.0) < 1.0 - notably_cheaper)
+        return "nothing that was tried is notably cheaper than the default";
+    const double ratio = result.standard().cpu / point.cpu;
+    return ratio >= 1.0 ? fmt::format("use {}: {:.2g} × faster than the default", point.setting, ratio)
+                        : fmt::format("use {}: it takes {:.2g} × as long as the default", point.setting, 1.0 / ratio);
+}
+
+std::string advice_for_default(const StudyResult& result, std::size_t kind)
+{
+    const ErrorValue had = result.standard().errors[kind];
+    const auto best = cheapest(result, [&](const StudyPoint& p) { return p.errors[kind].value <= had.value; });
+    return fmt::format("For no more {} than the default's {}: {}.", result.kinds[kind].name,
+        in_unit(had.value, result.kinds[kind].unit), choice(result, best.value_or(1)));
+}
+
+/// Nowhere worse: of what a difference is known to, only what is above that counts.
+std::string advice_for_all(const StudyResult& result)
+{
+    const StudyPoint& standard = result.standard();
+    const auto best = cheapest(result, [&](const StudyPoint& p) {
+        for (std::size_t kind = 0; kind < result.kinds.size(); ++kind) {
+            const ErrorValue &error = p.errors[kind], &had = standard.errors[kind];
+            if (result.kinds[kind].advised && error.value > had.value + sure * std::hypot(error.spread, had.spread))
+                return false;
+        }
+        return true;
+    });
+    return fmt::format("To be nowhere worse than the default: {}.", choice(result, best.value_or(1)));
+}
+
+std::string advice_for_target(const StudyResult& result, std::size_t kind)
+{
+    const std::string& name = result.kinds[kind].name;
+    const auto best = cheapest(result,
+        [&](const StudyPoint& p) { return p.errors[kind].value + sure * p.errors[kind].spread <= sensor_target; });
+    if (best) return fmt::format("For 1 % in {}: {}.", name, choice(result, *best));
+    return fmt::format(
+        "No setting is sure to be within 1 % in {}: the default differs by {:.2g} %, known to ± {:.2g} %; "
+        "more seeds or a longer time tell more.",
+        name, 100.0 * result.standard().errors[kind].value, 100.0 * sure * result.standard().errors[kind].spread);
+}
+
+} // namespace
+
+StudyResult compare(const std::vector<Setting>& settings, const std::vector<StudyRow>& rows)
+{
+    StudyResult result;
+    const auto reference = std::ranges::find_if(
+        rows, [](const StudyRow& row) { return row.setting == reference_name && row.status == "done"; });
+    if (reference != rows.end()) result.kinds = kinds_of(*reference);
+    for (const Setting& setting : settings) {
+        StudyPoint point = point_of(setting, rows, result.kinds);
+        const auto twin = std::ranges::find_if(result.points, [&](const StudyPoint& earlier) {
+            return point.is_done() && earlier.is_done() && are_the_same_run(rows, point.setting, earlier.setting);
+        });
+        if (twin != result.points.end()) point.status = fmt::format("the same run as {}", twin->setting);
+        result.points.push_back(point);
+    }
+    return result;
+}
+
+std::vector<std::size_t> front(const StudyResult& result, std::size_t kind)
+{
+    std::vector<std::size_t> order;
+    for (std::size_t i = 1; i < result.points.size(); ++i)
+        if (result.points[i].is_done() && std::isfinite(result.points[i].errors[kind].value)) order.push_back(i);
+    const auto error = [&](std::size_t i) { return result.points[i].errors[kind].value; };
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+        return std::pair(result.points[a].cpu, error(a)) < std::pair(result.points[b].cpu, error(b));
+    });
+    std::vector<std::size_t> best;
+    for (const std::size_t i : order)
+        if (best.empty() || error(i) < error(best.back())) best.push_back(i);
+    return best;
+}
+
+std::vector<std::string> advice(const StudyResult& result)
+{
+    std::vector<std::string> sentences;
+    if (result.points.size() < 2 || !result.standard().is_done()) return sentences;
+    sentences.push_back(advice_for_all(result));
+    for (std::size_t kind = 0; kind < result.kinds.size(); ++kind)
+        if (result.kinds[kind].advised && std::isfinite(result.standard().errors[kind].value))
+            sentences.push_back(
+                result.kinds[kind].of_sensor ? advice_for_target(result, kind) : advice_for_default(result, kind));
+    return sentences;
+}
+
+} // namespace talus

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/study/study_run.hpp"
+
+#include "app/incident_policy.hpp"
+#include "app/open_scene.hpp"
+#include "app/study/findings.hpp"
+#include "app/study/start_state.hpp"
+#include "io/input_error.hpp"
+#include "io/summary.hpp"
+#include "scenarios/scene_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <ctime>
+
+#include <sys/resource.h>
+
+namespace talus
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/// Of this process [s].
+double cpu_time()
+{
+    timespec now{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double peak_memory()
+{
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+OpenedScene open_setting(const StudyFrame& frame, const std::vector<std::string>& overrides, std::int64_t seed)
+{
+    std::vector<std::string> all = frame.study.set;
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    SceneFile file = read_scene(frame.scene, all);
+    file.scene.seed = seed;
+    file.scene.time.duration = frame.end;
+    return build_opened(std::move(file), frame.scene.stem());
+}
+
+fs::path state_folder(const StudyFrame& frame, std::int64_t seed)
+{
+    return frame.folder / fmt::format("start_of_seed_{}", seed);
+}
+
+std::string told(const Simulation& simulation, const StepReport& report)
+{
+    return fmt::format("t = {:.6g} s: {}", simulation.state.time,
+        describe(report.incidents.front(), names_of(simulation.model.walls)));
+}
+
+/// The setting's run itself. Returns what went wrong.
+std::string fill_row(StudyRow& row, const StudyFrame& frame, OpenedScene& opened)
+{
+    Simulation& simulation = opened.simulation;
+    Findings findings(simulation, opened.scene.time.metrics_interval);
+    const IncidentPolicy policy(opened.scene);
+    const double began = simulation.state.time;
+    double cpu = 0.0;
+    std::string failure;
+    while (!has_reached(simulation, frame.end) && failure.empty()) {
+        const double before = cpu_time();
+        const StepReport report = step(simulation);
+        cpu += cpu_time() - before;
+        if (policy.stops(report)) {
+            failure = told(simulation, report);
+        } else {
+            findings.add(report, simulation);
+            take_out_escaped(simulation, report);
+        }
+        if (cpu > frame.study.longest)
+            failure = fmt::format("given up after {:.3g} s of CPU, at t = {:.4g} s", cpu, simulation.state.time);
+    }
+    const double simulated = simulation.state.time - began;
+    row.cpu = cpu / simulated;
+    row.updates = findings.contact_updates() / simulated;
+    for (const Measurement& m : findings.results(simulation)) row.findings.push_back(m);
+    row.profile = findings.profile();
+    return failure;
+}
+
+} // namespace
+
+std::string make_start(const StudyFrame& frame, std::int64_t seed)
+{
+    try {
+        OpenedScene opened = open_setting(frame, {}, seed);
+        Simulation& simulation = opened.simulation;
+        const IncidentPolicy policy(opened.scene);
+        while (!has_reached(simulation, frame.start)) {
+            const StepReport report = step(simulation);
+            if (policy.stops(report)) return told(simulation, report);
+            take_out_escaped(simulation, report);
+        }
+        keep_state(simulation, state_folder(frame, seed));
+        return "";
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+}
+
+bool has_start(const StudyFrame& frame, std::int64_t seed)
+{
+    return fs::exists(state_folder(frame, seed) / "checkpoint.latest");
+}
+
+StudyRow run_setting(const StudyFrame& frame, const Setting& setting, std::int64_t seed)
+{
+    StudyRow row;
+    row.setting = setting.name;
+    row.seed = seed;
+    try {
+        const auto open = [&] {
+            OpenedScene opened = open_setting(frame, setting.overrides, seed);
+            put_state(opened.simulation, state_folder(frame, seed));
+            return opened;
+        };
+        {
+            OpenedScene one = open(), same = open();
+            const double error = velocity_error_of_a_step(one.simulation, same.simulation);
+            row.findings.push_back({"velocity_error", error, 0.0, "sqrt(g d)"});
+        }
+        OpenedScene opened = open();
+        if (const std::string failure = fill_row(row, frame, opened); !failure.empty()) row.status = failure;
+    } catch (const std::exception& error) {
+        row.status = error.what();
+    }
+    row.memory = peak_memory();
+    return row;
+}
+
+} // namespace talus
