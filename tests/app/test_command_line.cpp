@@ -39,8 +39,9 @@ TEST_CASE("the version names the libraries", "[app][command line]")
     const Outcome outcome = place.talus("--version");
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.out, Contains("talus 0."));
-    for (const char* library : {"GNU 1", "OpenMP 4", "Eigen 3.", "CGAL 5.", "VTK 9.", "toml++ 3.", "nlohmann-json 3.",
-             "CLI11 2.", "fmt 9.", "zlib 1."})
+    CHECK_THAT(outcome.out, Contains("(GNU 1") || Contains("(Clang 1"));
+    for (const char* library :
+        {"OpenMP ", "Eigen 3.", "CGAL 5.", "VTK 9.", "toml++ 3.", "nlohmann-json 3.", "CLI11 2.", "fmt 9.", "zlib 1."})
         CHECK_THAT(outcome.out, Contains(library));
 }
 

@@ -53,7 +53,8 @@ TEST_CASE("a folder that cannot be made ends with 4 and names it", "[app][output
     CHECK(line_of(outcome.err + "|", "|") == 2);
 }
 
-TEST_CASE("a disk that fills up ends with 4, names the file, and keeps what was written", "[app][output]")
+TEST_CASE(
+    "a disk that fills up ends with 4, names the file, and keeps what was written", "[app][output][not under thread]")
 {
     // a limit on the size of a file stands for the full disk: metrics.csv outgrows it
     const Workplace place;
