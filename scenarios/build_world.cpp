@@ -5,6 +5,7 @@
 #include "scenarios/build_region.hpp"
 #include "scenarios/build_spheres.hpp"
 #include "scenarios/scene_checks.hpp"
+#include "scenarios/scene_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -77,36 +78,71 @@ Box swept_bounds(const Wall& wall, double duration)
     return swept;
 }
 
-/// Round all walls, on their ways so far, fills, pours and outlets.
-Box content_bounds(const scene::Scene& scene, const Model& model, double duration)
+/// Something that lies in the scene, and the key that says where.
+struct Content {
+    std::string key;
+    Box bounds;
+};
+
+/// Walls, on their ways so far, fills, pours and outlets.
+std::vector<Content> contents(const scene::Scene& scene, const Model& model, double duration)
 {
-    Box box;
-    for (const auto& wall : model.walls)
-        if (const Box b = swept_bounds(wall, duration); !b.empty()) box.extend(b);
+    std::vector<Content> list;
+    for (std::size_t k = 0; k < model.walls.size(); ++k)
+        if (const Box b = swept_bounds(model.walls[k], duration); !b.empty())
+            list.push_back({key_path("wall", k, "name"), b});
     for (std::size_t k = 0; k < scene.fill.size(); ++k) {
         const auto& fill = scene.fill[k];
-        if (fill.arrangement != "file") box.extend(build_region(fill.region, key_path("fill", k, "region")).bounds());
-        for (const Vec3& position : fill.spheres.positions) box.extend(Box{position, position});
+        if (fill.arrangement != "file") {
+            const std::string key = key_path("fill", k, "region");
+            list.push_back({key, build_region(fill.region, key).bounds()});
+        }
+        for (const Vec3& position : fill.spheres.positions)
+            list.push_back({key_path("fill", k, "file"), Box{position, position}});
     }
-    for (std::size_t k = 0; k < scene.pour.size(); ++k)
-        box.extend(build_region(scene.pour[k].region, key_path("pour", k, "region")).bounds());
-    for (const auto& outlet : model.outlets) box.extend(outlet.bounds());
+    for (std::size_t k = 0; k < scene.pour.size(); ++k) {
+        const std::string key = key_path("pour", k, "region");
+        list.push_back({key, build_region(scene.pour[k].region, key).bounds()});
+    }
+    for (std::size_t k = 0; k < model.outlets.size(); ++k)
+        list.push_back({key_path("outlet", k, "region"), model.outlets[k].bounds()});
+    return list;
+}
+
+Box around(const std::vector<Content>& list)
+{
+    Box box;
+    for (const Content& content : list) box.extend(content.bounds);
     return box;
+}
+
+/// Beyond, places are told apart by 1e-7 diameters at best, and cells could no more be counted.
+constexpr double farthest_place = 1e9; ///< diameters
+
+void require_within_reach(const std::vector<Content>& list, double diameter)
+{
+    for (const Content& content : list) {
+        const double farthest = content.bounds.min.cwiseAbs().cwiseMax(content.bounds.max.cwiseAbs()).maxCoeff();
+        if (farthest > farthest_place * diameter)
+            throw SceneError(content.key, "it reaches more than 1e9 diameters from the origin, where numbers are too "
+                                          "coarse for contacts; bring the scene nearer");
+    }
 }
 
 } // namespace
 
 Vec3 scene_corner(const scene::Scene& scene, const Model& model)
 {
-    const Box box = content_bounds(scene, model, 0.0);
-    return box.empty() ? Vec3::Zero() : box.min;
+    const auto list = contents(scene, model, 0.0);
+    require_within_reach(list, model.mean_diameter);
+    return list.empty() ? Vec3::Zero() : around(list).min;
 }
 
 Box build_world(const scene::Scene& scene, const Model& model)
 {
     if (!((scene.world.min.array() < scene.world.max.array()).all()))
         throw SceneError("world.max", "the world is empty: every coordinate of 'min' must be below that of 'max'");
-    Box box = content_bounds(scene, model, scene.time.duration).grown(5.0 * model.max_diameter);
+    Box box = around(contents(scene, model, scene.time.duration)).grown(5.0 * model.max_diameter);
     for (int d = 0; d < 3; ++d) {
         if (model.gravity[d] < 0.0) box.max[d] = infinity;
         if (model.gravity[d] > 0.0) box.min[d] = -infinity;

@@ -18,6 +18,7 @@ void find_diameters(Model& model, const scene::Scene& scene);
 Periodicity build_periodicity(const scene::Scene& scene, double max_diameter);
 
 /// The lower corner of walls, fills, pours and outlets as the scene begins, whatever its duration.
+/// @throws SceneError where one of them lies too far from the origin
 Vec3 scene_corner(const scene::Scene& scene, const Model& model);
 
 /// The box that no sphere may leave: that of walls, fills, pours and outlets, grown by five diameters and open upwards,

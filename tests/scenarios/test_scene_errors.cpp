@@ -88,6 +88,24 @@ const std::vector<Mistake> of_walls = {
     {[](S& s) { s.wall.push_back(s.wall[0]); }, "wall[1].name", "two walls are called 'box'"},
 };
 
+const std::string too_far = "it reaches more than 1e9 diameters from the origin, where numbers are too coarse for "
+                            "contacts; bring the scene nearer";
+const scene::RegionTable far_away = box_region(Vec3(0, 0, -2e7), Vec3(1, 1, 1));
+
+const std::vector<Mistake> of_distances = {
+    {[](S& s) { s.wall[0].max.x() = 2e7; }, "wall[0].name", too_far},
+    {[](S& s) { s.fill[0].region = far_away; }, "fill[0].region", too_far},
+    {[](S& s) {
+         s.pour.push_back(small_pour());
+         s.pour[0].region = far_away;
+     },
+        "pour[0].region", too_far},
+    {[](S& s) {
+         s.outlet = {{"below", far_away}};
+     },
+        "outlet[0].region", too_far},
+};
+
 /// Gives wall[0] a motion of one kind with what `set` sets.
 std::function<void(S&)> add_motion(const std::string& kind, std::function<void(scene::MotionTable&)> set)
 {
@@ -547,6 +565,10 @@ TEST_CASE("a scene with a mistake is not built, and the key and the reason are t
     SECTION("motions, periodic axes, rotation, grains and slopes")
     {
         check_all(of_motions);
+    }
+    SECTION("distances")
+    {
+        check_all(of_distances);
     }
     SECTION("walls of finite mass")
     {
