@@ -23,6 +23,7 @@ struct VariedTable {
 struct Study {
     NumberOrName start = {0.0, "auto"};
     NumberOrName end = {0.0, "auto"};
+    double settle = 0.2;
     std::int64_t seeds = 1;
     double longest = 1800.0;
     std::vector<std::string> set;
@@ -44,6 +45,10 @@ struct Study {
             "else half of its duration");
         key("end", self.end, Allowed{.min = 0.0, .open = true, .names = {"auto"}}, "s",
             "of what is measured; auto: the scene's duration");
+        key("settle", self.settle, at_least(0.0), "s",
+            "after the start, before anything is measured: a setting with stiffer contacts first pushes out what "
+            "overlap "
+            "the state has, a softer one sinks in");
         key("seeds", self.seeds, between(1, 1000), "", "of the scene, each with a state of its own to start from");
         key("longest", self.longest, above(0.0), "s", "CPU time after which one setting is given up");
         key("set", self.set, any(), "", "changes of the scene for all settings, as for --set: a smaller bed, say");

@@ -215,9 +215,10 @@ ExitCode study_scene(const CommandLine& line)
     frame.scene = scene_path(line.scene);
     frame.start = number_or(frame.study.start, automatic_start(opened.scene));
     frame.end = number_or(frame.study.end, opened.scene.time.duration);
-    if (!(frame.start < frame.end))
+    if (!(frame.measured_from() < frame.end))
         throw UsageError(
-            fmt::format("the study must end after its start at {:.6g} s, not at {:.6g} s", frame.start, frame.end));
+            fmt::format("the study must end after {:.6g} s, when its settings have settled, not at {:.6g} s",
+                frame.measured_from(), frame.end));
     frame.folder = line.out.empty() ? fs::path("out") / ("study-" + opened.name) : line.out;
 
     const std::vector<Setting> settings = settings_of(frame.study, opened.simulation.model.time_step);
@@ -228,10 +229,12 @@ ExitCode study_scene(const CommandLine& line)
     const StudyUnits units(opened.simulation);
     const PageHead head = {opened.scene.title.empty() ? opened.name : opened.scene.title,
         fmt::format(
-            "{} spheres, from {:.4g} to {:.4g} s, {} {}; time step of the default {:.3g} ms. Units: d = {:.3g} mm "
-            "the mean diameter, g = {:.3g} m/s², M the mass of all spheres, m of one, h the time step.",
-            opened.simulation.state.count(), frame.start, frame.end, seeds.size(), seeds.size() > 1 ? "seeds" : "seed",
-            1e3 * opened.simulation.model.time_step, 1e3 * units.diameter, units.acceleration)};
+            "{} spheres, from {:.4g} s on, measured from {:.4g} to {:.4g} s, {} {}; time step of the default "
+            "{:.3g} ms. Units: d = {:.3g} mm the mean diameter, g = {:.3g} m/s², M the mass of all spheres, m of "
+            "one, h the time step.",
+            opened.simulation.state.count(), frame.start, frame.measured_from(), frame.end, seeds.size(),
+            seeds.size() > 1 ? "seeds" : "seed", 1e3 * opened.simulation.model.time_step, 1e3 * units.diameter,
+            units.acceleration)};
     const int at_once = line.threads > 0 ? line.threads : omp_get_num_procs();
     omp_set_num_threads(1); // a copy of a process has one thread; settings run beside each other instead
     catch_signals();

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <ctime>
+#include <functional>
 
 #include <sys/resource.h>
 
@@ -58,28 +59,44 @@ std::string told(const Simulation& simulation, const StepReport& report)
         describe(report.incidents.front(), names_of(simulation.model.walls)));
 }
 
-/// The setting's run itself. Returns what went wrong.
+/// Makes steps until a time, and tells each to `observe`. Returns what went wrong.
+std::string run_until(double time, OpenedScene& opened,
+    const std::function<void(const StepReport&, double cpu)>& observe, double longest = infinity)
+{
+    Simulation& simulation = opened.simulation;
+    const IncidentPolicy policy(opened.scene);
+    double cpu = 0.0;
+    while (!has_reached(simulation, time)) {
+        const double before = cpu_time();
+        const StepReport report = step(simulation);
+        const double taken = cpu_time() - before;
+        cpu += taken;
+        if (policy.stops(report)) return told(simulation, report);
+        observe(report, taken);
+        take_out_escaped(simulation, report);
+        if (cpu > longest)
+            return fmt::format("given up after {:.3g} s of CPU, at t = {:.4g} s", cpu, simulation.state.time);
+    }
+    return "";
+}
+
+void ignore(const StepReport&, double) {}
+
+/// Lets the setting settle, and measures it. Returns what went wrong.
 std::string fill_row(StudyRow& row, const StudyFrame& frame, OpenedScene& opened)
 {
     Simulation& simulation = opened.simulation;
+    const double longest = frame.study.longest;
+    if (const std::string failure = run_until(frame.measured_from(), opened, ignore, longest); !failure.empty())
+        return failure;
     Findings findings(simulation, opened.scene.time.metrics_interval);
-    const IncidentPolicy policy(opened.scene);
     const double began = simulation.state.time;
     double cpu = 0.0;
-    std::string failure;
-    while (!has_reached(simulation, frame.end) && failure.empty()) {
-        const double before = cpu_time();
-        const StepReport report = step(simulation);
-        cpu += cpu_time() - before;
-        if (policy.stops(report)) {
-            failure = told(simulation, report);
-        } else {
-            findings.add(report, simulation);
-            take_out_escaped(simulation, report);
-        }
-        if (cpu > frame.study.longest)
-            failure = fmt::format("given up after {:.3g} s of CPU, at t = {:.4g} s", cpu, simulation.state.time);
-    }
+    const auto observe = [&](const StepReport& report, double taken) {
+        cpu += taken;
+        findings.add(report, simulation);
+    };
+    const std::string failure = run_until(frame.end, opened, observe, longest);
     const double simulated = simulation.state.time - began;
     row.cpu = cpu / simulated;
     row.updates = findings.contact_updates() / simulated;
@@ -94,14 +111,8 @@ std::string make_start(const StudyFrame& frame, std::int64_t seed)
 {
     try {
         OpenedScene opened = open_setting(frame, {}, seed);
-        Simulation& simulation = opened.simulation;
-        const IncidentPolicy policy(opened.scene);
-        while (!has_reached(simulation, frame.start)) {
-            const StepReport report = step(simulation);
-            if (policy.stops(report)) return told(simulation, report);
-            take_out_escaped(simulation, report);
-        }
-        keep_state(simulation, state_folder(frame, seed));
+        if (const std::string failure = run_until(frame.start, opened, ignore); !failure.empty()) return failure;
+        keep_state(opened.simulation, state_folder(frame, seed));
         return "";
     } catch (const std::exception& error) {
         return error.what();

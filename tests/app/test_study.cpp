@@ -273,7 +273,8 @@ TEST_CASE("a study of a small bed: more sweeps, less error; the reference is the
     const Workplace place;
     place.write("bed.toml", small_bed());
     // No step stops for its residual: the least number of sweeps is what it makes.
-    place.write("study.toml", R"(start = 0.25
+    place.write("study.toml", R"(start = 0.2
+settle = 0.05
 set = ["solver.tolerance=1.0", "solver.pressure_scaling=false"]
 [[vary]]
 key = "solver.stabilisation"
@@ -319,6 +320,7 @@ TEST_CASE("a study that was stopped goes on where it was", "[app][study]")
     const Workplace place;
     place.write("bed.toml", small_bed());
     place.write("study.toml", R"(start = 0.25
+settle = 0
 reference = ["solver.min_sweeps=10"]
 cross = []
 [[vary]]
@@ -345,16 +347,18 @@ TEST_CASE("what a study cannot be is refused in one sentence", "[app][study]")
     const Workplace place;
     place.write("bed.toml", small_bed());
     place.write("late.toml", "start = 5.0\n");
+    place.write("good.toml", "settle = 0.05\n");
     place.write("odd.toml", "[[vary]]\nkey = \"a\"\nvalue = 3\n");
     const auto refusal = [&](const std::string& arguments) {
         const Outcome outcome = place.talus("study bed.toml " + arguments);
         CHECK(outcome.exit_code == 2);
         return outcome.err;
     };
-    CHECK(refusal("--settings late.toml") == "talus: the study must end after its start at 5 s, not at 0.35 s\n");
+    CHECK(refusal("--settings late.toml") ==
+          "talus: the study must end after 5.2 s, when its settings have settled, not at 0.35 s\n");
     CHECK(refusal("--settings odd.toml") == "odd.toml:3:1: unknown key 'value' in [[vary]]; did you mean 'values'?\n");
     CHECK(refusal("--settings none.toml") == "none.toml: no such file\n");
     REQUIRE(place.shell("mkdir full; touch full/thesis.tex").exit_code == 0);
-    CHECK(refusal("-o full") == "full: the folder is not empty and holds no study\n");
+    CHECK(refusal("--settings good.toml -o full") == "full: the folder is not empty and holds no study\n");
     CHECK(place.exists("full/thesis.tex"));
 }
