@@ -10,8 +10,11 @@
 #include "app/study/workers.hpp"
 #include "app/terminal.hpp"
 #include "core/statistics.hpp"
+#include "io/checksum.hpp"
 #include "io/input_error.hpp"
 #include "io/run_files.hpp"
+#include "io/scene_file.hpp"
+#include "io/scene_files.hpp"
 #include "io/study_file.hpp"
 
 #include <algorithm>
@@ -27,6 +30,9 @@ namespace
 {
 
 namespace fs = std::filesystem;
+
+/// Says which study a folder is of.
+constexpr const char* study_mark = "study.resolved.toml";
 
 /// When the first sensor begins to look, or half of the duration.
 double automatic_start(const scene::Scene& scene)
@@ -101,18 +107,42 @@ private:
     std::vector<StudyRow> rows_;
 };
 
+/// The whole study with its scene and the files that it names: rows of another are not to be mixed with it.
+std::string identity(const OpenedScene& opened, const scene::Study& study)
+{
+    std::string content = resolved_scene(opened.scene);
+    for (const auto& [file, sum] : input_files(opened.scene)) content += fmt::format("{} {}\n", file, sum);
+    return fmt::format(
+        "# Talus {}, scene {:08x}: {}\n{}", TALUS_VERSION, checksum(content), opened.name, resolved_study(study));
+}
+
+/// Takes away what a study wrote; other files in its folder stay.
+void remove_study(const fs::path& folder)
+{
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename();
+        if (name == "rows.jsonl" || name == "study.csv" || name == "study.html" || name == study_mark ||
+            name.starts_with("start_of_seed_"))
+            fs::remove_all(entry.path());
+    }
+}
+
 /// The folder of a study: empty, not there, or of the same study, which goes on.
+/// @param study what must be the same
 void make_study_folder(const fs::path& folder, const std::string& study, bool force)
 {
-    const fs::path mark = folder / "study.resolved.toml";
-    if (force && fs::exists(mark)) fs::remove_all(folder);
-    if (fs::exists(folder) && !fs::is_empty(folder)) {
-        if (!fs::exists(mark))
-            throw InputError(fmt::format("{}: the folder is not empty and holds no study", folder.string()));
+    const fs::path mark = folder / study_mark;
+    if (fs::exists(mark) && force) {
+        remove_study(folder);
+    } else if (fs::exists(mark)) {
         std::ifstream file(mark, std::ios::binary);
         if (std::string(std::istreambuf_iterator<char>(file), {}) != study)
-            throw InputError(fmt::format("{}: the folder holds another study; --force replaces it", folder.string()));
+            throw InputError(
+                fmt::format("{}: the folder holds another study, or one of the scene as it was; --force replaces it",
+                    folder.string()));
         return;
+    } else if (fs::exists(folder) && !fs::is_empty(folder)) {
+        throw InputError(fmt::format("{}: the folder is not empty and holds no study", folder.string()));
     }
     std::error_code error;
     fs::create_directories(folder, error);
@@ -224,7 +254,7 @@ ExitCode study_scene(const CommandLine& line)
     const std::vector<Setting> settings = settings_of(frame.study, opened.simulation.model.time_step);
     std::vector<std::int64_t> seeds;
     for (std::int64_t k = 0; k < frame.study.seeds; ++k) seeds.push_back(opened.scene.seed + k);
-    make_study_folder(frame.folder, fmt::format("# {}\n{}", opened.name, resolved_study(frame.study)), line.force);
+    make_study_folder(frame.folder, identity(opened, frame.study), line.force);
 
     const StudyUnits units(opened.simulation);
     const PageHead head = {opened.scene.title.empty() ? opened.name : opened.scene.title,

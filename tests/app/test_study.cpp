@@ -362,3 +362,21 @@ TEST_CASE("what a study cannot be is refused in one sentence", "[app][study]")
     CHECK(refusal("--settings good.toml -o full") == "full: the folder is not empty and holds no study\n");
     CHECK(place.exists("full/thesis.tex"));
 }
+
+TEST_CASE("a study of a scene that was edited is another one; --force replaces it and nothing else", "[app][study]")
+{
+    const Workplace place;
+    place.write("bed.toml", small_bed());
+    place.write("study.toml", "settle = 0.05\nreference = [\"solver.min_sweeps=10\"]\nvary = []\n");
+    const std::string command = "study bed.toml --settings study.toml -o study --quiet";
+    REQUIRE(place.talus(command).exit_code == 0);
+    place.write("study/thesis.tex", "years");
+    CHECK(place.talus(command).exit_code == 0); // nothing to do
+    place.write("bed.toml", replaced(small_bed(), "[materials.glass]", "[materials.glass]\ndensity = 2600.0"));
+    const Outcome refused = place.talus(command);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.err == "study: the folder holds another study, or one of the scene as it was; --force replaces it\n");
+    CHECK(place.talus(command + " --force").exit_code == 0);
+    CHECK(place.read("study/thesis.tex") == "years");
+    CHECK(std::ranges::count(place.read("study/rows.jsonl"), '\n') == 2);
+}
