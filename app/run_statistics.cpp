@@ -25,7 +25,8 @@ void RunStatistics::add(const StepReport& report, const Simulation& simulation)
 
     const std::int64_t inserted = simulation.state.next_id;
     const std::int64_t left = simulation.outflow.count + static_cast<std::int64_t>(simulation.escaped.size());
-    energy_.add(report, inserted == inserted_ && left == left_);
+    same_spheres_ = inserted == inserted_ && left == left_;
+    energy_.add(report, same_spheres_);
     inserted_ = inserted;
     left_ = left;
 }

@@ -20,6 +20,9 @@ public:
 
     double contact_updates() const { return contact_updates_; } ///< contacts × sweeps
 
+    /// Whether the last step had the spheres of the step before it.
+    bool same_spheres() const { return same_spheres_; }
+
     void persist(Archive& archive)
     {
         archive(residuals_, steps_at_cap_, overlap_sum_, overlap_count_, worst_overlap_, worst_overlap_time_,
@@ -38,6 +41,7 @@ private:
     double contact_updates_ = 0.0;
     EnergyBalance energy_;
     std::int64_t inserted_ = 0, left_ = 0; ///< up to the last step, also by escape
+    bool same_spheres_ = false;
 };
 
 } // namespace talus

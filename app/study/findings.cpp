@@ -61,27 +61,17 @@ Findings::Findings(const Simulation& start, double interval)
 void Findings::add(const StepReport& report, Simulation& simulation)
 {
     ++steps_;
-    if (!report.converged) ++at_cap_;
-    residuals_.add(report.residual);
-    contact_updates_ += static_cast<double>(report.contacts) * report.sweeps;
-
-    const std::int64_t inserted = simulation.state.next_id;
-    const std::int64_t left = simulation.outflow.count + static_cast<std::int64_t>(simulation.escaped.size());
-    const bool same_spheres = inserted == inserted_ && left == left_;
-    energy_.add(report, same_spheres);
-    add_momentum(report, simulation, same_spheres);
-    inserted_ = inserted;
-    left_ = left;
-
+    statistics_.add(report, simulation);
+    add_momentum(report, simulation);
     for (const auto& sensor : simulation.sensors) sensor->watch(snapshot(simulation, report));
     if (looks_.due(simulation.state.time)) look(report, simulation);
 }
 
-void Findings::add_momentum(const StepReport& report, const Simulation& simulation, bool same_spheres)
+void Findings::add_momentum(const StepReport& report, const Simulation& simulation)
 {
     const Vec3 momentum = linear_momentum(simulation.state);
     const double h = simulation.model.time_step;
-    if (same_spheres && !simulation.model.physics.pistons) {
+    if (statistics_.same_spheres() && !simulation.model.physics.pistons) {
         const Vec3 put_in = h * mass_of(simulation.state) * simulation.model.gravity + report.wall_impulse;
         const double unit = h * units_.mass * units_.acceleration;
         momentum_error_ = std::max(momentum_error_, (momentum - momentum_ - put_in).norm() / unit);
@@ -108,13 +98,14 @@ void Findings::look(const StepReport& report, Simulation& simulation)
 
 std::vector<Measurement> Findings::results(const Simulation& simulation) const
 {
+    const ErrorSummary error = statistics_.error(simulation.model);
     const double window = simulation.state.time - began_;
     const double looks = static_cast<double>(looked_), weight = units_.mass * units_.acceleration;
     const double support = force_sum_[0] / looks;
     std::vector<Measurement> results = {
-        {"residual", residuals_.mean(), 0.0, "1"},
-        {"residual_95", residuals_.percentile(0.95), 0.0, "1"},
-        {"steps_at_cap", static_cast<double>(at_cap_) / static_cast<double>(steps_), 0.0, "1"},
+        {"residual", error.mean_residual, 0.0, "1"},
+        {"residual_95", error.residual_95, 0.0, "1"},
+        {"steps_at_cap", static_cast<double>(error.steps_at_cap) / static_cast<double>(steps_), 0.0, "1"},
         {"overlap", overlaps_.mean(), 0.0, "d"},
         {"overlap_95", overlaps_.percentile(0.95), 0.0, "d"},
         {"worst_overlap", overlaps_.worst(), 0.0, "d"},
@@ -122,7 +113,7 @@ std::vector<Measurement> Findings::results(const Simulation& simulation) const
         {"creep", displacements_.median(simulation.state) / units_.diameter / window, 0.0, "d/s"},
         {"restlessness", restless_sum_ / looks / units_.grain_energy, 0.0, "m g d"},
         {"support_swing", std::sqrt(std::max(0.0, support_squares_ / looks - support * support)) / weight, 0.0, "M g"},
-        {"energy_gained", energy_.gained() / (weight * units_.diameter) / window, 0.0, "M g d/s"},
+        {"energy_gained", error.energy_gained / (weight * units_.diameter) / window, 0.0, "M g d/s"},
         {"momentum_error", momentum_error_, 0.0, "M g h"},
     };
     for (const auto& sensor : simulation.sensors)

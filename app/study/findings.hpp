@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/energy_balance.hpp"
 #include "app/log_histogram.hpp"
+#include "app/run_statistics.hpp"
 #include "app/schedule.hpp"
 #include "core/force_profile.hpp"
 #include "core/quietness.hpp"
@@ -43,20 +43,18 @@ public:
     /// Mean support by walls and through cuts (force_profile.hpp), by the weight of the spheres at the start.
     std::vector<double> profile() const;
 
-    double contact_updates() const { return contact_updates_; } ///< contacts × sweeps so far
+    double contact_updates() const { return statistics_.contact_updates(); } ///< contacts × sweeps so far
 
 private:
     StudyUnits units_;
     Vec3 up_;
     Schedule looks_;
-    double began_;                      ///< [s]
-    LogHistogram residuals_, overlaps_; ///< overlaps in d
-    std::int64_t steps_ = 0, at_cap_ = 0;
-    double contact_updates_ = 0.0;
-    EnergyBalance energy_;
-    std::int64_t inserted_ = -1, left_ = -1; ///< up to the last step
-    Vec3 momentum_;                          ///< after the last step [kg m/s]
-    double momentum_error_ = 0.0;            ///< worst, in M g h
+    double began_; ///< [s]
+    RunStatistics statistics_;
+    std::int64_t steps_ = 0;
+    LogHistogram overlaps_;       ///< at the looks [d]
+    Vec3 momentum_;               ///< after the last step [kg m/s]
+    double momentum_error_ = 0.0; ///< worst, in M g h
     Displacements displacements_;
     ForceProfile cuts_;
     std::vector<double> force_sum_; ///< over the looks [N]
@@ -64,7 +62,7 @@ private:
     double height_sum_ = 0.0, restless_sum_ = 0.0;
     std::int64_t looked_ = 0;
 
-    void add_momentum(const StepReport& report, const Simulation& simulation, bool same_spheres);
+    void add_momentum(const StepReport& report, const Simulation& simulation);
     void look(const StepReport& report, Simulation& simulation);
 };
 
