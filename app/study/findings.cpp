@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/study/findings.hpp"
 
+#include "app/study/saved_state.hpp"
 #include "core/loaded_contacts.hpp"
 
 #include <algorithm>
@@ -39,6 +40,14 @@ double acceleration_of(const Simulation& start)
     if (g > 0.0) return g;
     const double speed = rms_speed(start.state);
     return speed > 0.0 ? speed * speed / start.model.mean_diameter : 1.0;
+}
+
+/// By the spheres' ids: a step may put spheres into another order.
+std::unordered_map<std::int64_t, Vec3> velocities(const State& state)
+{
+    std::unordered_map<std::int64_t, Vec3> all;
+    for (std::size_t i = 0; i < state.count(); ++i) all[state.id[i]] = state.motion[i].velocity;
+    return all;
 }
 
 } // namespace
@@ -131,20 +140,25 @@ std::vector<double> Findings::profile() const
     return mean;
 }
 
-double velocity_error_of_a_step(Simulation& simulation, Simulation& same)
+Measurement velocity_error_of_next_step(Simulation& simulation)
 {
-    const double unit = StudyUnits(simulation).speed;
-    same.model.solver.tolerance = exact_tolerance;
-    same.model.solver.max_sweeps = exact_sweeps;
+    const std::string before = state_of(simulation);
+    const SolverSettings usual = simulation.model.solver;
     step(simulation);
-    step(same);
-    std::unordered_map<std::int64_t, Vec3> exact;
-    for (std::size_t i = 0; i < same.state.count(); ++i) exact[same.state.id[i]] = same.state.motion[i].velocity;
+    const auto velocity = velocities(simulation.state);
+    put_back(simulation, before);
+
+    simulation.model.solver.tolerance = exact_tolerance;
+    simulation.model.solver.max_sweeps = exact_sweeps;
+    step(simulation);
     double squares = 0.0;
-    for (std::size_t i = 0; i < simulation.state.count(); ++i)
-        squares += (simulation.state.motion[i].velocity - exact.at(simulation.state.id[i])).squaredNorm();
-    const auto count = static_cast<double>(std::max<std::size_t>(1, simulation.state.count()));
-    return std::sqrt(squares / count) / unit;
+    for (const auto& [id, exact] : velocities(simulation.state))
+        if (const auto found = velocity.find(id); found != velocity.end())
+            squares += (found->second - exact).squaredNorm();
+    const auto count = static_cast<double>(std::max<std::size_t>(1, velocity.size()));
+    simulation.model.solver = usual;
+    put_back(simulation, before);
+    return {"velocity_error", std::sqrt(squares / count) / StudyUnits(simulation).speed, 0.0, "sqrt(g d)"};
 }
 
 } // namespace talus

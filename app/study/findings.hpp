@@ -66,9 +66,8 @@ private:
     void look(const StepReport& report, Simulation& simulation);
 };
 
-/// How far the velocities are, after one step from where a simulation is, from those that the same step has when it is
-/// solved to the end: root of the mean square over the spheres, in √(g d).
-/// @param simulation, same twice in the same state; both make the step
-double velocity_error_of_a_step(Simulation& simulation, Simulation& same);
+/// How far the velocities are, after the next step, from those that the same step has when it is solved to the end:
+/// root of the mean square over the spheres, in √(g d). The simulation is put back to where it was.
+Measurement velocity_error_of_next_step(Simulation& simulation);
 
 } // namespace talus

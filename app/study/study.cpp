@@ -22,6 +22,7 @@
 #include <csignal>
 #include <fstream>
 
+#include <fmt/ranges.h>
 #include <omp.h>
 
 namespace talus
@@ -68,6 +69,9 @@ public:
     }
 
     const StudyFrame& frame() const { return frame_; }
+
+    /// How many there are in all.
+    std::size_t runs() const { return settings_.size() * seeds_.size(); }
 
     /// What is not there yet, the reference of each seed first: it takes longest.
     std::vector<Job> missing() const
@@ -232,60 +236,84 @@ void run_jobs(StudyBook& book, const std::vector<Job>& jobs, int at_once, Verbos
         goes_on);
 }
 
-} // namespace
-
-ExitCode study_scene(const CommandLine& line)
+/// What to run, where, and when. The scene is as the study has it.
+StudyFrame frame_of(const CommandLine& line, scene::Study study, const OpenedScene& opened)
 {
     StudyFrame frame;
-    if (!line.study.empty()) frame.study = read_study(line.study);
-    frame.study.set.insert(frame.study.set.end(), line.overrides.begin(), line.overrides.end());
-    CommandLine as_set = line;
-    as_set.overrides = frame.study.set;
-    const OpenedScene opened = open_scene(as_set);
     frame.scene = scene_path(line.scene);
+    frame.study = std::move(study);
+    frame.folder = line.out.empty() ? fs::path("out") / ("study-" + opened.name) : line.out;
     frame.start = number_or(frame.study.start, automatic_start(opened.scene));
     frame.end = number_or(frame.study.end, opened.scene.time.duration);
     if (!(frame.measured_from() < frame.end))
         throw UsageError(
             fmt::format("the study must end after {:.6g} s, when its settings have settled, not at {:.6g} s",
                 frame.measured_from(), frame.end));
-    frame.folder = line.out.empty() ? fs::path("out") / ("study-" + opened.name) : line.out;
+    return frame;
+}
 
-    const std::vector<Setting> settings = settings_of(frame.study, opened.simulation.model.time_step);
+std::vector<std::int64_t> seeds_of(const StudyFrame& frame, const OpenedScene& opened)
+{
     std::vector<std::int64_t> seeds;
     for (std::int64_t k = 0; k < frame.study.seeds; ++k) seeds.push_back(opened.scene.seed + k);
-    make_study_folder(frame.folder, identity(opened, frame.study), line.force);
+    return seeds;
+}
 
-    const StudyUnits units(opened.simulation);
-    const PageHead head = {opened.scene.title.empty() ? opened.name : opened.scene.title,
-        fmt::format(
-            "{} spheres, from {:.4g} s on, measured from {:.4g} to {:.4g} s, {} {}; time step of the default "
-            "{:.3g} ms. Units: d = {:.3g} mm the mean diameter, g = {:.3g} m/s², M the mass of all spheres, m of "
-            "one, h the time step.",
-            opened.simulation.state.count(), frame.start, frame.measured_from(), frame.end, seeds.size(),
-            seeds.size() > 1 ? "seeds" : "seed", 1e3 * opened.simulation.model.time_step, 1e3 * units.diameter,
-            units.acceleration)};
-    const int at_once = line.threads > 0 ? line.threads : omp_get_num_procs();
-    omp_set_num_threads(1); // a copy of a process has one thread; settings run beside each other instead
-    catch_signals();
+PageHead head_of(const StudyFrame& frame, const OpenedScene& opened)
+{
+    const Simulation& simulation = opened.simulation;
+    const StudyUnits units(simulation);
+    PageHead head;
+    head.title = opened.scene.title.empty() ? opened.name : opened.scene.title;
+    head.what = fmt::format(
+        "{} spheres, from {:.4g} s on, measured from {:.4g} to {:.4g} s, {} {}; time step of the default {:.3g} ms. "
+        "Units: d = {:.3g} mm the mean diameter, g = {:.3g} m/s², M the mass of all spheres, m of one, h the time "
+        "step.",
+        simulation.state.count(), frame.start, frame.measured_from(), frame.end, frame.study.seeds,
+        frame.study.seeds > 1 ? "seeds" : "seed", 1e3 * simulation.model.time_step, 1e3 * units.diameter,
+        units.acceleration);
+    if (!frame.study.set.empty()) head.what += fmt::format(" The scene with {}.", fmt::join(frame.study.set, ", "));
+    return head;
+}
 
-    StudyBook book(frame, settings, seeds, head);
-    const std::vector<Job> jobs = book.missing();
-    if (line.verbosity != Verbosity::quiet)
-        say("{}: {}\n{} settings, {} of {} runs to make, {} at a time\noutput: {}\n", opened.name, opened.scene.title,
-            settings.size(), jobs.size(), settings.size() * seeds.size(), at_once, frame.folder.string());
-    make_starts(frame, jobs, at_once, line.verbosity);
-    if (goes_on()) run_jobs(book, jobs, at_once, line.verbosity);
-    const StudyResult result = book.write_result();
+ExitCode tell_result(const StudyResult& result, const StudyFrame& frame, Verbosity verbosity)
+{
     if (const int signal = stop_signal(); signal != 0) {
         warn("stopped; to go on: the same command again\n");
         return signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
     }
-    if (line.verbosity != Verbosity::quiet) {
+    if (verbosity != Verbosity::quiet) {
         for (const std::string& sentence : advice(result)) say("{}\n", sentence);
         say("all of it: {}\n", (frame.folder / "study.html").string());
     }
     return ExitCode::done;
+}
+
+} // namespace
+
+ExitCode study_scene(const CommandLine& line)
+{
+    scene::Study study = line.study.empty() ? scene::Study{} : read_study(line.study);
+    study.set.insert(study.set.end(), line.overrides.begin(), line.overrides.end());
+    CommandLine as_set = line;
+    as_set.overrides = study.set;
+    const OpenedScene opened = open_scene(as_set);
+    const StudyFrame frame = frame_of(line, std::move(study), opened);
+    make_study_folder(frame.folder, identity(opened, frame.study), line.force);
+
+    const int at_once = line.threads > 0 ? line.threads : omp_get_num_procs();
+    omp_set_num_threads(1); // a copy of a process has one thread; settings run beside each other instead
+    catch_signals();
+
+    StudyBook book(frame, settings_of(frame.study, opened.simulation.model.time_step), seeds_of(frame, opened),
+        head_of(frame, opened));
+    const std::vector<Job> jobs = book.missing();
+    if (line.verbosity != Verbosity::quiet)
+        say("{}: {}\n{} of {} runs to make, {} at a time\noutput: {}\n", opened.name, opened.scene.title, jobs.size(),
+            book.runs(), at_once, frame.folder.string());
+    make_starts(frame, jobs, at_once, line.verbosity);
+    if (goes_on()) run_jobs(book, jobs, at_once, line.verbosity);
+    return tell_result(book.write_result(), frame, line.verbosity);
 }
 
 } // namespace talus

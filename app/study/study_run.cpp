@@ -4,7 +4,7 @@
 #include "app/incident_policy.hpp"
 #include "app/open_scene.hpp"
 #include "app/study/findings.hpp"
-#include "app/study/start_state.hpp"
+#include "app/study/saved_state.hpp"
 #include "io/input_error.hpp"
 #include "io/summary.hpp"
 #include "scenarios/scene_checks.hpp"
@@ -89,6 +89,7 @@ std::string fill_row(StudyRow& row, const StudyFrame& frame, OpenedScene& opened
     const double longest = frame.study.longest;
     if (const std::string failure = run_until(frame.measured_from(), opened, ignore, longest); !failure.empty())
         return failure;
+    row.findings.push_back(velocity_error_of_next_step(simulation));
     Findings findings(simulation, opened.scene.time.metrics_interval);
     const double began = simulation.state.time;
     double cpu = 0.0;
@@ -112,7 +113,7 @@ std::string make_start(const StudyFrame& frame, std::int64_t seed)
     try {
         OpenedScene opened = open_setting(frame, {}, seed);
         if (const std::string failure = run_until(frame.start, opened, ignore); !failure.empty()) return failure;
-        keep_state(opened.simulation, state_folder(frame, seed));
+        save_state(opened.simulation, state_folder(frame, seed));
         return "";
     } catch (const std::exception& error) {
         return error.what();
@@ -130,17 +131,8 @@ StudyRow run_setting(const StudyFrame& frame, const Setting& setting, std::int64
     row.setting = setting.name;
     row.seed = seed;
     try {
-        const auto open = [&] {
-            OpenedScene opened = open_setting(frame, setting.overrides, seed);
-            put_state(opened.simulation, state_folder(frame, seed));
-            return opened;
-        };
-        {
-            OpenedScene one = open(), same = open();
-            const double error = velocity_error_of_a_step(one.simulation, same.simulation);
-            row.findings.push_back({"velocity_error", error, 0.0, "sqrt(g d)"});
-        }
-        OpenedScene opened = open();
+        OpenedScene opened = open_setting(frame, setting.overrides, seed);
+        load_state(opened.simulation, state_folder(frame, seed));
         if (const std::string failure = fill_row(row, frame, opened); !failure.empty()) row.status = failure;
     } catch (const std::exception& error) {
         row.status = error.what();

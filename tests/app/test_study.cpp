@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/command_line.hpp"
+#include "app/open_scene.hpp"
+#include "app/study/findings.hpp"
+#include "app/study/saved_state.hpp"
 #include "app/study/settings.hpp"
 #include "app/study/study_page.hpp"
 #include "app/study/study_result.hpp"
@@ -313,6 +316,31 @@ values = ["cheese"]
     CHECK(number("default", "floor_force_z") < 0.01);
     CHECK_THAT(rows["projected, material=cheese"]["status"], Contains("cheese"));
     CHECK_THAT(place.read("study/study.html"), Contains("<svg") && Contains("A small bed"));
+}
+
+TEST_CASE("the velocity error of a step is measured without a trace", "[app][study]")
+{
+    const Workplace place;
+    place.write("bed.toml", small_bed());
+    CommandLine line;
+    line.scene = place.path("bed.toml").string();
+    Simulation measured = open_scene(line).simulation, left_alone = open_scene(line).simulation;
+    const auto both_make_steps = [&](int count) {
+        for (int k = 0; k < count; ++k) {
+            step(measured);
+            step(left_alone);
+        }
+    };
+    both_make_steps(400);
+    const double error = velocity_error_of_next_step(measured).value;
+    CHECK(error > 1e-12);
+    CHECK(error < 0.1);
+    both_make_steps(50);
+    CHECK(state_of(measured) == state_of(left_alone));
+
+    measured.model.solver.tolerance = 1e-10;
+    measured.model.solver.max_sweeps = 5000;
+    CHECK(velocity_error_of_next_step(measured).value < 1e-3 * error);
 }
 
 TEST_CASE("a study that was stopped goes on where it was", "[app][study]")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/study/start_state.hpp"
+#include "app/study/saved_state.hpp"
 
 #include "io/checkpoint.hpp"
 #include "io/input_error.hpp"
@@ -13,7 +13,6 @@ namespace talus
 namespace
 {
 
-/// All that changes but the sensors.
 void persist_without_sensors(Archive& archive, Simulation& simulation)
 {
     auto sensors = std::move(simulation.sensors);
@@ -24,20 +23,30 @@ void persist_without_sensors(Archive& archive, Simulation& simulation)
 
 } // namespace
 
-void keep_state(Simulation& simulation, const std::filesystem::path& folder)
+std::string state_of(Simulation& simulation)
 {
     Archive archive;
     persist_without_sensors(archive, simulation);
-    std::filesystem::create_directories(folder);
-    write_checkpoint(folder, TALUS_VERSION, archive.bytes());
+    return archive.bytes();
 }
 
-void put_state(Simulation& simulation, const std::filesystem::path& folder)
+void put_back(Simulation& simulation, std::string state)
+{
+    Archive archive(std::move(state));
+    persist_without_sensors(archive, simulation);
+}
+
+void save_state(Simulation& simulation, const std::filesystem::path& folder)
+{
+    std::filesystem::create_directories(folder);
+    write_checkpoint(folder, TALUS_VERSION, state_of(simulation));
+}
+
+void load_state(Simulation& simulation, const std::filesystem::path& folder)
 {
     Checkpoint checkpoint = read_checkpoint(folder, TALUS_VERSION);
     try {
-        Archive archive(std::move(checkpoint.state));
-        persist_without_sensors(archive, simulation);
+        put_back(simulation, std::move(checkpoint.state));
     } catch (const ArchiveError& error) {
         throw InputError(fmt::format("{}: cannot be put back: {}", checkpoint.path.string(), error.what()));
     }
