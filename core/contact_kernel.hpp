@@ -70,21 +70,21 @@ template <bool wall> void apply_rolling_impulse(const Contact& c, const Vec3& to
     }
 }
 
-/// The impulse that solves one contact exactly with all others held, normal first, then friction on
-/// the disk of the new normal impulse:
+/// The impulse that solves one contact with all others held, normal first, then friction on the disk of the new normal
+/// impulse; exactly where the relaxation ω is 1:
 ///
-///   λ_n ← max(0, λ_n − (u_n + Σ_n λ_n − q_n) / (W + Σ_n))                       README (6)
-///   λ_t ← projection of λ_t − u_t / (W (1 + 5/2 s²)) on the disk |λ_t| ≤ μ λ_n  README (7)
-template <class R> Vec3 solved_impulse(const Contact& c, const ContactTerms& terms, const Vec3& u)
+///   λ_n ← max(0, λ_n − ω (u_n + Σ_n λ_n − q_n) / (W + Σ_n))                       README (6)
+///   λ_t ← projection of λ_t − ω u_t / (W (1 + 5/2 s²)) on the disk |λ_t| ≤ μ λ_n  README (7)
+template <class R> Vec3 solved_impulse(const Contact& c, const ContactTerms& terms, const Vec3& u, double relaxation)
 {
     const double u_n = u.dot(c.normal);
     const double old_normal = c.impulse.dot(c.normal);
     const double new_normal =
-        std::max(0.0, old_normal - (u_n + terms.compliance * old_normal - c.target) * terms.normal_mass);
+        std::max(0.0, old_normal - relaxation * ((u_n + terms.compliance * old_normal - c.target) * terms.normal_mass));
     if constexpr (!R::friction)
         return new_normal * c.normal;
     else {
-        Vec3 tangent = (c.impulse - old_normal * c.normal) - terms.tangent_mass * (u - u_n * c.normal);
+        Vec3 tangent = (c.impulse - old_normal * c.normal) - relaxation * terms.tangent_mass * (u - u_n * c.normal);
         const double largest = terms.friction * new_normal;
         const double size_squared = tangent.squaredNorm();
         if (size_squared > largest * largest) tangent *= largest / std::sqrt(size_squared);
@@ -102,11 +102,12 @@ template <bool wall, class R> Vec3 relative_spin(const Contact& c, const SideRow
 }
 
 /// The rolling row's impulse on the disk |τ| ≤ μ_r R* λ_n, against the relative spin across the normal; README (8).
-template <bool wall, class R> Vec3 solved_rolling_impulse(const Contact& c, const SideRows& rows, const Motion* motion)
+template <bool wall, class R>
+Vec3 solved_rolling_impulse(const Contact& c, const SideRows& rows, const Motion* motion, double relaxation)
 {
     const RollingRow& row = *rows.rolling;
     const Vec3 spin = relative_spin<wall, R>(c, rows, motion);
-    Vec3 impulse = row.impulse - row.inertia * (spin - spin.dot(c.normal) * c.normal);
+    Vec3 impulse = row.impulse - relaxation * row.inertia * (spin - spin.dot(c.normal) * c.normal);
     const double largest = row.reach * c.impulse.dot(c.normal);
     const double size_squared = impulse.squaredNorm();
     if (size_squared > largest * largest) impulse *= largest / std::sqrt(size_squared);
@@ -115,9 +116,10 @@ template <bool wall, class R> Vec3 solved_rolling_impulse(const Contact& c, cons
 
 /// Relaxes one contact. With `apply` off nothing changes and the sums tell how far the contact is from its law.
 template <bool wall, class R, bool apply>
-void relax(Contact& c, const ContactTerms& terms, const SideRows& rows, Motion* motion, SweepSums& sums)
+void relax(
+    Contact& c, const ContactTerms& terms, const SideRows& rows, Motion* motion, double relaxation, SweepSums& sums)
 {
-    const Vec3 solved = solved_impulse<R>(c, terms, contact_velocity<wall, R>(c, terms, rows, motion));
+    const Vec3 solved = solved_impulse<R>(c, terms, contact_velocity<wall, R>(c, terms, rows, motion), relaxation);
     const Vec3 change = solved - c.impulse;
     sums.change += terms.inverse_mass_sum * change.squaredNorm();
     sums.size += terms.inverse_mass_sum * solved.squaredNorm();
@@ -127,7 +129,7 @@ void relax(Contact& c, const ContactTerms& terms, const SideRows& rows, Motion* 
     }
     if constexpr (R::rolling) {
         RollingRow& row = *rows.rolling;
-        const Vec3 rolling = solved_rolling_impulse<wall, R>(c, rows, motion);
+        const Vec3 rolling = solved_rolling_impulse<wall, R>(c, rows, motion, relaxation);
         const Vec3 rolling_change = rolling - row.impulse;
         sums.change += rolling_change.squaredNorm() / row.inertia;
         sums.size += rolling.squaredNorm() / row.inertia;

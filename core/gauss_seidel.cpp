@@ -14,11 +14,14 @@ namespace talus
 namespace
 {
 
-template <class R, bool apply> SweepSums relax_tile(ContactNetwork& network, std::size_t tile, Motion* motion)
+constexpr double unrelaxed = 1.0; ///< ω of an ordinary sweep, and of all that measures
+
+template <class R, bool apply>
+SweepSums relax_tile(ContactNetwork& network, std::size_t tile, Motion* motion, double relaxation)
 {
     SweepSums sums;
     for_each_contact(network, tile, [&](Contact& c, const ContactTerms& terms, const SideRows& rows, auto is_wall) {
-        relax<is_wall(), R, apply>(c, terms, rows, motion, sums);
+        relax<is_wall(), R, apply>(c, terms, rows, motion, relaxation, sums);
     });
     return sums;
 }
@@ -64,9 +67,11 @@ template <class R> double apply_warm_start(ContactNetwork& network, Motion* moti
 
 /// Every contact once. Called by all threads of the crew.
 template <class R>
-void sweep(TileCrew& crew, ContactNetwork& network, PistonGroup& pistons, Motion* motion, PartialSums& sums)
+void sweep(
+    TileCrew& crew, ContactNetwork& network, PistonGroup& pistons, Motion* motion, double relaxation, PartialSums& sums)
 {
-    crew.color_by_color([&](std::size_t tile) { sums.of_tile[tile] = relax_tile<R, true>(network, tile, motion); });
+    crew.color_by_color(
+        [&](std::size_t tile) { sums.of_tile[tile] = relax_tile<R, true>(network, tile, motion, relaxation); });
     if (!pistons.empty()) crew.by_one([&] { sums.of_pistons = pistons.sweep(motion); });
 }
 
@@ -74,7 +79,7 @@ template <class R> void sweep_times(int count, ContactNetwork& network, PistonGr
 {
     PartialSums unused(network.tiles.count());
     with_tile_crew(network.tiles, [&](TileCrew& crew) {
-        for (int k = 0; k < count; ++k) sweep<R>(crew, network, pistons, motion, unused);
+        for (int k = 0; k < count; ++k) sweep<R>(crew, network, pistons, motion, unrelaxed, unused);
     });
 }
 
@@ -97,7 +102,7 @@ SolveReport solve(ContactNetwork& network, PistonGroup& pistons, Motion* motion,
         double change = infinity, error = infinity;
         while (error > solver.tolerance && sweeps < solver.max_sweeps) {
             auto& sums = swept[static_cast<std::size_t>(sweeps % 2)];
-            sweep<R>(crew, network, pistons, motion, sums);
+            sweep<R>(crew, network, pistons, motion, sweeps < solver.min_sweeps ? unrelaxed : solver.relaxation, sums);
             ++sweeps;
             // ε after a sweep is about what the next sweep would change: as much less as this one changed less than the
             // last.
@@ -105,8 +110,9 @@ SolveReport solve(ContactNetwork& network, PistonGroup& pistons, Motion* motion,
             const double expected = change < last_change ? change * change / last_change : change;
             const bool ready = sweeps >= solver.min_sweeps && (expected <= solver.tolerance || change == 0.0);
             if (!ready && sweeps < solver.max_sweeps) continue;
-            crew.all_at_once(
-                [&](std::size_t tile) { measured.of_tile[tile] = relax_tile<R, false>(network, tile, motion); });
+            crew.all_at_once([&](std::size_t tile) {
+                measured.of_tile[tile] = relax_tile<R, false>(network, tile, motion, unrelaxed);
+            });
             if (!pistons.empty()) crew.by_one([&] { measured.of_pistons = pistons.measure(motion); });
             error = residual(measured.total());
         }

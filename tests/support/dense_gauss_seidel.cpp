@@ -153,17 +153,17 @@ Eigen::VectorXd solved_coupled_contact(const DenseProblem& p, std::size_t k)
     return z;
 }
 
-Eigen::VectorXd solved_contact(const DenseProblem& p, std::size_t k)
+Eigen::VectorXd solved_contact(const DenseProblem& p, std::size_t k, double relaxation = 1.0)
 {
     if (p.coupled[k]) return solved_coupled_contact(p, k);
     const Index row = first_row(k);
-    Eigen::VectorXd z = p.impulse.segment(row, contact_rows) + unconstrained_change(p, row, contact_rows);
+    Eigen::VectorXd z = p.impulse.segment(row, contact_rows) + relaxation * unconstrained_change(p, row, contact_rows);
     if (z[0] <= 0.0) return Eigen::VectorXd::Zero(contact_rows);
     z.tail(2) = on_disk(z.tail(2), p.friction[k] * z[0]);
     return z;
 }
 
-Eigen::VectorXd solved_rolling(const DenseProblem& p, std::size_t k)
+Eigen::VectorXd solved_rolling(const DenseProblem& p, std::size_t k, double relaxation = 1.0)
 {
     const Index row = first_row(k) + contact_rows;
     if (p.rolling_reach[k] == 0.0) return Eigen::VectorXd::Zero(rolling_rows);
@@ -172,7 +172,8 @@ Eigen::VectorXd solved_rolling(const DenseProblem& p, std::size_t k)
         const Eigen::VectorXd b = rows.y - rows.D * p.impulse.segment(row, rolling_rows);
         return minimum_on_disk(rows.D, b, p.rolling_reach[k] * p.impulse[first_row(k)]);
     }
-    const Eigen::VectorXd z = p.impulse.segment(row, rolling_rows) + unconstrained_change(p, row, rolling_rows);
+    const Eigen::VectorXd z =
+        p.impulse.segment(row, rolling_rows) + relaxation * unconstrained_change(p, row, rolling_rows);
     return on_disk(z, p.rolling_reach[k] * p.impulse[first_row(k)]);
 }
 
@@ -262,11 +263,11 @@ void warm_start(DenseProblem& p)
     p.velocity += p.inverse_mass.asDiagonal() * (p.jacobian.transpose() * p.impulse);
 }
 
-void sweep(DenseProblem& p)
+void sweep(DenseProblem& p, double relaxation)
 {
     for (std::size_t k = 0; k < p.friction.size(); ++k) {
-        apply(p, first_row(k), solved_contact(p, k));
-        apply(p, first_row(k) + contact_rows, solved_rolling(p, k));
+        apply(p, first_row(k), solved_contact(p, k, relaxation));
+        apply(p, first_row(k) + contact_rows, solved_rolling(p, k, relaxation));
     }
     constexpr Index size = DenseProblem::guide_rows;
     for (Index row = first_row(p.friction.size()); row < p.target.size(); row += size)

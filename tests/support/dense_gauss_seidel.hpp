@@ -73,7 +73,8 @@ void warm_start(DenseProblem& problem);
 /// One pass of Algorithm 3.1 over the contacts in the given order, with its slips put right: λ_k is stored, and the
 /// projection takes the normal first and the disk of radius μ z_n (the note tests against μ z_n² where it must be μ²
 /// z_n²) after it.
-void sweep(DenseProblem& problem);
+/// @param relaxation the note's: a factor on d, of contacts whose block is diagonal
+void sweep(DenseProblem& problem, double relaxation = 1.0);
 
 /// ε = (Σ W|δ|² / max(Σ W|λ|², Σ W|λ⁰|²))^½ with δ = what a sweep would change in each contact if it changed no other;
 /// W is the inverse mass sum, for rolling rows the inverse inertia sum.
