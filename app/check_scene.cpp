@@ -95,6 +95,7 @@ void print_overlaps_at_start(const Simulation& simulation, const OverlapCheck& o
 
 void print_explanations(const Simulation& simulation, const OverlapCheck& overlaps)
 {
+    if (!simulation.accuracy_explanation.empty()) say("{}\n", simulation.accuracy_explanation);
     say("{}\n{}\n{}\n", simulation.step_explanation, simulation.model_explanation, simulation.overlap_forecast);
     print_overlaps_at_start(simulation, overlaps);
 }

@@ -47,6 +47,11 @@ void add_scene_options(CLI::App& verb, CommandLine& line)
 {
     add_scene_and_seed(verb, line);
     add_change_options(verb, line);
+    verb.add_option_function<std::string>(
+            "--accuracy",
+            [&line](const std::string& text) { line.overrides.push_back(fmt::format("accuracy='{}'", text)); },
+            "As the scene's key accuracy: the cheapest setting that is known to be no more wrong")
+        ->type_name("PERCENT");
 }
 
 void add_threads_option(CLI::App& verb, CommandLine& line)

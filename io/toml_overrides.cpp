@@ -50,11 +50,13 @@ bool is_toml_value(const std::string& text)
     }
 }
 
-/// A word that may stand for a string without its quotes: letters first, nothing that TOML would read as structure.
+/// A word that may stand for a string without its quotes: letters first, or a percentage, and nothing that TOML would
+/// read as structure.
 bool is_bare_word(const std::string& text)
 {
     const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-    return !text.empty() && (is_letter(text.front()) || text.front() == '/' || text.front() == '.') &&
+    if (text.empty()) return false;
+    return (is_letter(text.front()) || text.front() == '/' || text.front() == '.' || text.back() == '%') &&
            text.find_first_of("'\"=[]{},#\\") == std::string::npos;
 }
 

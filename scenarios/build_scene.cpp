@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/build_scene.hpp"
 
+#include "scenarios/accuracy.hpp"
 #include "scenarios/build_materials.hpp"
 #include "scenarios/build_output.hpp"
 #include "scenarios/build_region.hpp"
@@ -50,7 +51,7 @@ std::vector<Region> build_outlets(const scene::Scene& scene)
 }
 
 /// The constant part of the simulation, but for the step, which the spheres decide along with it.
-Model build_model(const scene::Scene& scene)
+Model build_model(const scene::Scene& scene, const RunSetting& setting)
 {
     Model model;
     model.gravity = scene.world.gravity;
@@ -64,7 +65,7 @@ Model build_model(const scene::Scene& scene)
     model.outlets = build_outlets(scene);
     model.world = build_world(scene, model);
     model.corner = scene_corner(scene, model);
-    model.solver = build_solver(scene);
+    model.solver = build_solver(scene, setting);
     return model;
 }
 
@@ -99,7 +100,8 @@ Simulation build_scene(const scene::Scene& scene)
     refuse_shared_names(scene);
     Simulation simulation;
     auto& model = simulation.model;
-    model = build_model(scene);
+    const AccuracyChoice accuracy = choose_accuracy(scene);
+    model = build_model(scene, accuracy.setting);
 
     simulation.state.pistons.resize(model.pistons.size());
     Random random(static_cast<std::uint64_t>(scene.seed));
@@ -109,11 +111,12 @@ Simulation build_scene(const scene::Scene& scene)
     simulation.output = build_output(scene);
     simulation.duration = scene.time.duration;
 
-    const auto choice = choose_step(scene, simulation);
+    const auto choice = choose_step(scene, simulation, accuracy.setting.step_factor);
     model.time_step = choice.step;
     model.solver.push_out_speed = push_out_speed(scene, model);
     choose_pressure_scaling(scene, simulation);
     model.speed_limit = 10.0 * choice.fastest_speed + model.min_diameter / choice.step;
+    simulation.accuracy_explanation = accuracy.explanation;
     simulation.step_explanation = choice.explanation;
     simulation.model_explanation = explain_model(model);
     simulation.overlap_forecast = forecast_overlap(simulation);

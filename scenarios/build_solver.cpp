@@ -10,8 +10,9 @@ namespace talus
 namespace
 {
 
-double tolerance(const scene::NumberOrName& value)
+double tolerance(const scene::NumberOrName& value, double automatic)
 {
+    if (value.name == "auto") return automatic;
     if (value.name == "draft") return 5e-2;
     if (value.name == "standard") return 1e-2;
     if (value.name == "fine") return 1e-3;
@@ -21,19 +22,21 @@ double tolerance(const scene::NumberOrName& value)
 
 } // namespace
 
-SolverSettings build_solver(const scene::Scene& scene)
+SolverSettings build_solver(const scene::Scene& scene, const RunSetting& setting)
 {
     const auto& table = scene.solver;
     SolverSettings solver;
     solver.stabilisation = table.stabilisation == "matched" ? Stabilisation::matched : Stabilisation::projected;
-    solver.min_sweeps = table.min_sweeps > 0                             ? static_cast<int>(table.min_sweeps)
-                        : solver.stabilisation == Stabilisation::matched ? 2
-                                                                         : 3;
+    const int usual_sweeps = solver.stabilisation == Stabilisation::matched ? 2 : 3;
+    solver.min_sweeps = table.min_sweeps > 0     ? static_cast<int>(table.min_sweeps)
+                        : setting.min_sweeps > 0 ? setting.min_sweeps
+                                                 : usual_sweeps;
     solver.max_sweeps = static_cast<int>(table.max_sweeps);
     if (solver.max_sweeps < solver.min_sweeps)
         throw SceneError("solver.max_sweeps",
             "'max_sweeps' must be at least the " + std::to_string(solver.min_sweeps) + " of 'min_sweeps'");
-    solver.tolerance = tolerance(table.tolerance);
+    solver.tolerance = tolerance(table.tolerance, setting.tolerance);
+    solver.relaxation = table.relaxation;
     solver.restitution_threshold = table.restitution_threshold;
     return solver;
 }

@@ -2,14 +2,16 @@
 #pragma once
 
 #include "core/model.hpp"
+#include "scenarios/accuracy.hpp"
 #include "scenarios/scene.hpp"
 
 namespace talus
 {
 
 /// The settings of the solver, names replaced by numbers, but for the push-out speed.
+/// @param setting for what the scene leaves open
 /// @throws SceneError where the sweeps have no room
-SolverSettings build_solver(const scene::Scene& scene);
+SolverSettings build_solver(const scene::Scene& scene, const RunSetting& setting);
 
 /// The cap on the speed with which overlap is undone [m/s]. @param model its step is known too
 double push_out_speed(const scene::Scene& scene, const Model& model);

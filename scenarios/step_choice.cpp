@@ -100,7 +100,7 @@ std::set<int> sphere_materials(const Simulation& simulation)
 
 } // namespace
 
-StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation)
+StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation, double factor)
 {
     const auto& model = simulation.model;
     StepChoice choice;
@@ -116,7 +116,7 @@ StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation)
     }
     if (!std::isfinite(automatic))
         throw SceneError("time.step", "without gravity and speeds there is no automatic step: give one in seconds");
-    choice.step = automatic;
+    choice.step = factor * automatic;
     choice.explanation =
         from_gravity <= from_speed
             ? text("step %.4g ms = 0.008 sqrt(d/g) for the smallest d = %.4g mm (the fastest fall, %.3g m/s, moves "
@@ -125,6 +125,8 @@ StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation)
                   choice.fastest_speed * automatic / model.min_diameter)
             : text("step %.4g ms: the fastest sphere, %.3g m/s, moves 0.1 d in it (0.008 sqrt(d/g) would be %.4g ms)",
                   1e3 * automatic, choice.fastest_speed, 1e3 * from_gravity);
+    if (factor != 1.0)
+        choice.explanation += text("; times %g for the accuracy asked for: %.4g ms", factor, 1e3 * choice.step);
     return choice;
 }
 

@@ -17,8 +17,9 @@ struct StepChoice {
 
 /// The step of the scene: the one given, or h = 0.008 √(d_min/gravity), and no longer than the time in which the
 /// fastest sphere moves 0.1 d_min. Without gravity the speeds alone decide.
+/// @param factor on the automatic step
 /// @throws SceneError where neither gravity nor a speed gives a step
-StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation);
+StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation, double factor = 1.0);
 
 /// Before the run: how soft `matched` makes contacts, k = 2.2 N_min/(W h²), and what overlap the bed will have for it,
 /// mean/d ≈ 0.4 Z g h²/(N_min d), Z its height in diameters.

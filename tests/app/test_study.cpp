@@ -9,6 +9,7 @@
 #include "app/study/workers.hpp"
 #include "io/input_error.hpp"
 #include "tests/app/program.hpp"
+#include "tests/support/study_csv.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -84,29 +85,6 @@ kind = "wall_force"
 wall = "box"
 from = 0.25
 )";
-}
-
-/// The rows of study.csv by setting and column; texts as they are.
-std::map<std::string, std::map<std::string, std::string>> read_csv(const std::string& text)
-{
-    std::vector<std::vector<std::string>> lines;
-    bool quoted = false;
-    lines.push_back({""});
-    for (const char c : text) {
-        if (c == '"')
-            quoted = !quoted;
-        else if (c == ',' && !quoted)
-            lines.back().push_back("");
-        else if (c == '\n')
-            lines.push_back({""});
-        else
-            lines.back().back() += c;
-    }
-    std::map<std::string, std::map<std::string, std::string>> rows;
-    for (std::size_t k = 1; k < lines.size(); ++k)
-        for (std::size_t column = 0; column < lines[k].size() && lines[k].size() > 1; ++column)
-            rows[lines[k][0]][lines[0][column]] = lines[k][column];
-    return rows;
 }
 
 } // namespace
@@ -293,7 +271,7 @@ values = ["cheese"]
     INFO(outcome.err);
     REQUIRE(outcome.exit_code == 0);
     CHECK_THAT(outcome.out, Contains("For no more overlap_95 than the default's"));
-    auto rows = read_csv(place.read("study/study.csv"));
+    auto rows = test::read_study_csv(place.read("study/study.csv"));
     const auto number = [&](const std::string& setting, const std::string& column) {
         INFO(setting << " " << column);
         REQUIRE(rows.contains(setting));

@@ -94,7 +94,8 @@ TEST_CASE("an unknown name of a choice is refused with the names and the nearest
           "scene.toml:2:17: 'stabilisation' must be 'matched' or 'projected', not the string 'projectd'; did you mean "
           "'projected'?");
     CHECK(refusal_of("[solver]\ntolerance = 'standart'\n") ==
-          "scene.toml:2:13: 'tolerance' must be a number above 0 and at most 1, or 'draft', 'standard', 'fine' or "
+          "scene.toml:2:13: 'tolerance' must be a number above 0 and at most 1, or 'auto', 'draft', 'standard', 'fine' "
+          "or "
           "'reference', not the string 'standart'; did you mean 'standard'?");
     CHECK(
         refusal_of("[time]\nstep = -1\n") == "scene.toml:2:8: 'step' must be a number above 0 [s], or 'auto', not -1");

@@ -53,7 +53,8 @@ TEST_CASE("the resolved scene reads back to itself, from another folder too", "[
 TEST_CASE("every key of the defaults is in the resolved scene", "[scene_file]")
 {
     const std::string resolved = resolved_scene(scene::Scene());
-    CHECK(resolved.starts_with("title = \"\"\nseed = 1\n\n[time]\nstep = \"auto\"  # s\nduration = 1.0  # s\n"));
+    CHECK(resolved.starts_with(
+        "title = \"\"\nseed = 1\naccuracy = \"\"\n\n[time]\nstep = \"auto\"  # s\nduration = 1.0  # s\n"));
     CHECK(resolved.find("[world]\ngravity = [0.0, 0.0, -9.81]  # m/s2\nmin = [-inf, -inf, -inf]  # m\n") !=
           std::string::npos);
 }

@@ -83,6 +83,7 @@ TEST_CASE("a bare word is taken as a string", "[toml_overrides]")
 {
     CHECK(scene_with({"solver.stabilisation=projected"}).solver.stabilisation == "projected");
     CHECK(scene_with({"title=Beads on a plate"}).title == "Beads on a plate");
+    CHECK(scene_with({"accuracy=1%"}).accuracy == "1%");
     CHECK(scene_with({"title='quoted, with = and #'"}).title == "quoted, with = and #");
 }
 
