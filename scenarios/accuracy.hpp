@@ -12,7 +12,7 @@ namespace talus
 
 /// What decides how wrong a run is, and how long it takes.
 struct RunSetting {
-    double step_factor = 1.0; ///< of the automatic time step
+    double step_factor = 1.0; ///< on the time step that gravity allows (step_choice.hpp)
     int min_sweeps = 0;       ///< 0: the usual number
     double tolerance = 1e-2;
 };

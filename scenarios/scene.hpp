@@ -173,10 +173,10 @@ struct SolverTable {
             "pressures are scaled in a bed of a hundred grains or deeper");
         key("max_sweeps", self.max_sweeps, between(1, 1000000), "",
             "sweeps after which a step goes on unconverged, which is counted and told");
-        key("relaxation", self.relaxation, between(0.5, 1.7), "",
-            "of the sweeps after the least number; above 1 they go farther than each contact asks for: flows and "
-            "impacts "
-            "converge in fewer sweeps, beds at rest are not changed");
+        key("relaxation", self.relaxation, between(0.5, 1.6), "",
+            "of the sweeps after the least number; above 1 they go farther than each contact asks for: fast flows "
+            "converge "
+            "in fewer sweeps, slow ones in more");
         key("restitution_threshold", self.restitution_threshold, at_least(0.0), "gravity x step",
             "slower impacts do not rebound");
         key("push_out_speed", self.push_out_speed, Allowed{.min = 0.0, .names = {"auto"}}, "m/s",
@@ -639,7 +639,7 @@ struct Scene {
         key("seed", self.seed, at_least(0), "", "of all random numbers");
         key("accuracy", self.accuracy, any(), "",
             "\"1%\": takes the time step, the least number of sweeps and the tolerance from the cheapest setting that "
-            "was never more wrong in the studies of tests/studies; empty: the usual setting");
+            "was no more wrong in any of the studies of tests/studies; empty: the usual setting");
         key("time", self.time, any(), "", "");
         key("world", self.world, any(), "", "");
         key("solver", self.solver, any(), "", "");

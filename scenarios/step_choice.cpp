@@ -105,7 +105,8 @@ StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation, 
     const auto& model = simulation.model;
     StepChoice choice;
     choice.fastest_speed = fastest_speed(simulation);
-    const double from_gravity = gravity_share * std::sqrt(model.min_diameter / model.gravity.norm());
+    const double share = factor * gravity_share;
+    const double from_gravity = share * std::sqrt(model.min_diameter / model.gravity.norm());
     const double from_speed = longest_move * model.min_diameter / choice.fastest_speed;
     const double automatic = std::min(from_gravity, from_speed);
     if (scene.time.step.name != "auto") {
@@ -116,17 +117,15 @@ StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation, 
     }
     if (!std::isfinite(automatic))
         throw SceneError("time.step", "without gravity and speeds there is no automatic step: give one in seconds");
-    choice.step = factor * automatic;
+    choice.step = automatic;
     choice.explanation =
         from_gravity <= from_speed
-            ? text("step %.4g ms = 0.008 sqrt(d/g) for the smallest d = %.4g mm (the fastest fall, %.3g m/s, moves "
+            ? text("step %.4g ms = %.3g sqrt(d/g) for the smallest d = %.4g mm (the fastest fall, %.3g m/s, moves "
                    "%.2g d in it)",
-                  1e3 * automatic, 1e3 * model.min_diameter, choice.fastest_speed,
+                  1e3 * automatic, share, 1e3 * model.min_diameter, choice.fastest_speed,
                   choice.fastest_speed * automatic / model.min_diameter)
-            : text("step %.4g ms: the fastest sphere, %.3g m/s, moves 0.1 d in it (0.008 sqrt(d/g) would be %.4g ms)",
-                  1e3 * automatic, choice.fastest_speed, 1e3 * from_gravity);
-    if (factor != 1.0)
-        choice.explanation += text("; times %g for the accuracy asked for: %.4g ms", factor, 1e3 * choice.step);
+            : text("step %.4g ms: the fastest sphere, %.3g m/s, moves 0.1 d in it (%.3g sqrt(d/g) would be %.4g ms)",
+                  1e3 * automatic, choice.fastest_speed, share, 1e3 * from_gravity);
     return choice;
 }
 

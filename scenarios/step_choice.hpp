@@ -15,9 +15,9 @@ struct StepChoice {
     std::string explanation;    ///< one line
 };
 
-/// The step of the scene: the one given, or h = 0.008 √(d_min/gravity), and no longer than the time in which the
-/// fastest sphere moves 0.1 d_min. Without gravity the speeds alone decide.
-/// @param factor on the automatic step
+/// The step of the scene: the one given, or h = 0.008 √(d_min/gravity) times the factor, and no longer than the time in
+/// which the fastest sphere moves 0.1 d_min. Without gravity the speeds alone decide.
+/// @param factor what an accuracy asks for
 /// @throws SceneError where neither gravity nor a speed gives a step
 StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation, double factor = 1.0);
 

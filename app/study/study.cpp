@@ -16,6 +16,7 @@
 #include "io/scene_file.hpp"
 #include "io/scene_files.hpp"
 #include "io/study_file.hpp"
+#include "scenarios/build_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -252,6 +253,13 @@ StudyFrame frame_of(const CommandLine& line, scene::Study study, const OpenedSce
     return frame;
 }
 
+/// That the scene has where it asks for no accuracy [s]: the reference does not become coarser with the wish.
+double usual_step(scene::Scene scene)
+{
+    scene.accuracy.clear();
+    return build_scene(scene).model.time_step;
+}
+
 std::vector<std::int64_t> seeds_of(const StudyFrame& frame, const OpenedScene& opened)
 {
     std::vector<std::int64_t> seeds;
@@ -305,8 +313,8 @@ ExitCode study_scene(const CommandLine& line)
     omp_set_num_threads(1); // a copy of a process has one thread; settings run beside each other instead
     catch_signals();
 
-    StudyBook book(frame, settings_of(frame.study, opened.simulation.model.time_step), seeds_of(frame, opened),
-        head_of(frame, opened));
+    StudyBook book(
+        frame, settings_of(frame.study, usual_step(opened.scene)), seeds_of(frame, opened), head_of(frame, opened));
     const std::vector<Job> jobs = book.missing();
     if (line.verbosity != Verbosity::quiet)
         say("{}: {}\n{} of {} runs to make, {} at a time\noutput: {}\n", opened.name, opened.scene.title, jobs.size(),

@@ -2,11 +2,13 @@
 #include "scenarios/accuracy.hpp"
 #include "scenarios/build_scene.hpp"
 #include "scenarios/scene_error.hpp"
+#include "scenarios/step_choice.hpp"
 #include "tests/scenarios/small_scene.hpp"
 #include "tests/support/study_csv.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -131,12 +133,23 @@ TEST_CASE("the cheapest setting that is accurate enough is taken", "[accuracy]")
         asking_nothing.accuracy = "";
         const Simulation usual = build_scene(asking_nothing), chosen = build_scene(scene);
         INFO(scene.accuracy << ": " << chosen.accuracy_explanation);
-        CHECK(chosen.model.time_step == Approx(measured.setting.step_factor * usual.model.time_step));
+        const double by_speed = 0.1 * chosen.model.min_diameter / choose_step(scene, chosen).fastest_speed;
+        CHECK(
+            chosen.model.time_step == Approx(std::min(measured.setting.step_factor * usual.model.time_step, by_speed)));
         CHECK(chosen.model.solver.min_sweeps ==
               (measured.setting.min_sweeps > 0 ? measured.setting.min_sweeps : usual.model.solver.min_sweeps));
         CHECK(chosen.model.solver.tolerance == measured.setting.tolerance);
         CHECK_THAT(chosen.accuracy_explanation, Contains(measured.worst));
     }
+}
+
+TEST_CASE("a coarse accuracy leaves the fastest sphere its tenth of a diameter in a step", "[accuracy]")
+{
+    auto scene = small_scene();
+    scene.fill[0].velocity = Vec3(0, 0, -30.0);
+    const Simulation usual = build_scene(scene);
+    scene.accuracy = "100%";
+    CHECK(build_scene(scene).model.time_step == usual.model.time_step);
 }
 
 TEST_CASE("what a scene sets itself stands, whatever its accuracy", "[accuracy]")

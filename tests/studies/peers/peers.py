@@ -54,8 +54,12 @@ NAMED = ("default", "projected", "matched, step=x4", "matched, relaxation=1.4", 
 COLUMNS = ["code", "setting", "seed", "cpu_s_per_s", "mass_flow_kg_per_s"]
 
 
+class StudyError(Exception):
+    """A study that is not there, or not of the hopper; the text is one sentence for the user."""
+
+
 class PeerError(Exception):
-    """A study that is not there, or a code that fails; the text is one sentence for the user."""
+    """A code that fails; the text is one sentence for the user."""
 
 
 class Peer(NamedTuple):
@@ -98,13 +102,15 @@ class Study:
         self.folder = Path(folder)
         mark, rows = self.folder / "study.resolved.toml", self.folder / "rows.jsonl"
         if not (mark.is_file() and rows.is_file()):
-            raise PeerError(f"{folder} holds no study.")
+            raise StudyError(f"{folder} holds no study.")
         self.settings = tomllib.loads(mark.read_text(encoding="utf-8"))
         self.rows = [json.loads(line) for line in rows.read_text(encoding="utf-8").splitlines()]
         self.changes = self.settings["set"]
 
     def window(self):
         changed = dict(change.split("=", 1) for change in self.changes)
+        if "wall.gate.remove_at" not in changed:
+            raise StudyError(f"{self.folder} holds no study of the hopper that says when its gate opens.")
         opened = float(changed["wall.gate.remove_at"])
         measured_from = self.settings["start"] + self.settings["settle"]
         return Window(0.5 * opened, opened, measured_from, self.settings["end"])
@@ -116,7 +122,7 @@ class Study:
             if row["status"] == "done" and flow:
                 runs.append(Measured("Talus", row["setting"], row["seed"], row["cpu_s_per_s"], flow[0]))
         if not any(run.setting == "reference" for run in runs):
-            raise PeerError(f"{self.folder} has no reference of the {FLOW} yet.")
+            raise StudyError(f"{self.folder} has no reference of the {FLOW} yet.")
         return runs
 
 
@@ -343,7 +349,7 @@ def main():
         found = points(runs)
         print_table(found)
         draw(found, study.folder / "peers.png")
-    except RunError as error:
+    except (RunError, StudyError) as error:
         print(f"peers.py: {error}", file=sys.stderr)
         return 2
     except PeerError as error:
