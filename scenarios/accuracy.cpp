@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/accuracy.hpp"
 
+#include "scenarios/build_solver.hpp"
 #include "scenarios/scene_error.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cstdio>
 
@@ -45,9 +45,8 @@ const MeasuredSetting& cheapest_within(double error, Stabilisation stabilisation
                               " is the least with this stabilisation; 'talus study' finds settings for a scene");
 }
 
-std::string described(const MeasuredSetting& measured)
+std::string described(const RunSetting& setting)
 {
-    const RunSetting& setting = measured.setting;
     char step[40], tolerance[40];
     std::snprintf(step, sizeof step, "time step x %g", setting.step_factor);
     std::snprintf(tolerance, sizeof tolerance, "tolerance %g", setting.tolerance);
@@ -91,13 +90,11 @@ const std::vector<MeasuredSetting>& measured_settings()
 AccuracyChoice choose_accuracy(const scene::Scene& scene)
 {
     if (scene.accuracy.empty()) return {};
-    const auto stabilisation =
-        scene.solver.stabilisation == "matched" ? Stabilisation::matched : Stabilisation::projected;
     const double asked = share_of(scene.accuracy);
-    const MeasuredSetting& measured = cheapest_within(asked, stabilisation);
+    const MeasuredSetting& measured = cheapest_within(asked, stabilisation_of(scene.solver));
     char cost[80];
     std::snprintf(cost, sizeof cost, "; %.2g times the usual cost", measured.cost);
-    return {measured.setting, "accuracy " + percent(asked) + ": " + described(measured) + ", at worst " +
+    return {measured.setting, "accuracy " + percent(asked) + ": " + described(measured.setting) + ", at worst " +
                                   percent(measured.error) + " wrong where it was studied (" + measured.worst + ")" +
                                   cost + left_as_it_is(scene)};
 }

@@ -22,11 +22,16 @@ double tolerance(const scene::NumberOrName& value, double automatic)
 
 } // namespace
 
+Stabilisation stabilisation_of(const scene::SolverTable& table)
+{
+    return table.stabilisation == "matched" ? Stabilisation::matched : Stabilisation::projected;
+}
+
 SolverSettings build_solver(const scene::Scene& scene, const RunSetting& setting)
 {
     const auto& table = scene.solver;
     SolverSettings solver;
-    solver.stabilisation = table.stabilisation == "matched" ? Stabilisation::matched : Stabilisation::projected;
+    solver.stabilisation = stabilisation_of(table);
     const int usual_sweeps = solver.stabilisation == Stabilisation::matched ? 2 : 3;
     solver.min_sweeps = table.min_sweeps > 0     ? static_cast<int>(table.min_sweeps)
                         : setting.min_sweeps > 0 ? setting.min_sweeps

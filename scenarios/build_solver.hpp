@@ -8,6 +8,9 @@
 namespace talus
 {
 
+/// The law that a scene names.
+Stabilisation stabilisation_of(const scene::SolverTable& table);
+
 /// The settings of the solver, names replaced by numbers, but for the push-out speed.
 /// @param setting for what the scene leaves open
 /// @throws SceneError where the sweeps have no room
