@@ -26,9 +26,11 @@ struct PressGauge {
     {
     }
 
+    bool is_deep(const ContactGeometry& geometry) const { return -geometry.gap > overlap; }
+
     bool sees(const ContactArrays& arrays, std::size_t k, bool at_wall) const
     {
-        if (-arrays.geometry[k].gap <= overlap) return false;
+        if (!is_deep(arrays.geometry[k])) return false;
         const Contact& c = arrays.contact[k];
         Vec3 u = motion[c.a].velocity;
         if (!at_wall) u -= motion[c.b].velocity;
@@ -53,7 +55,12 @@ ContactOutcome carry(const ContactArrays& arrays, std::size_t first, std::size_t
         std::uint8_t& touched = carried.touched[geometry.slot];
         const bool pressed = gauge.sees(arrays, k, at_wall);
         const bool opened = geometry.kind == ContactKind::open; // and closed by the impacts of others, if it was fast
-        touched = pressed ? count_pressed(touched) : geometry.gap <= 0.0 || (normal_impulse > 0.0 && !opened);
+        if (pressed)
+            touched = count_pressed(touched);
+        else if (gauge.is_deep(geometry))
+            touched = count_unpressed(touched);
+        else
+            touched = geometry.gap <= 0.0 || (normal_impulse > 0.0 && !opened);
         if (pressed && came_beyond_solution(touched)) ++outcome.beyond_solution;
         carried.impulse[geometry.slot] = keeps ? contact.impulse : Vec3::Zero().eval();
         if (!arrays.rolling.empty())

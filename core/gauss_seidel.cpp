@@ -48,10 +48,12 @@ struct PartialSums {
     explicit PartialSums(std::size_t tiles) : of_tile(tiles) {}
 
     /// Added up in tile order, so that it has the same bits whichever thread made which part.
-    SweepSums total() const
+    /// @param relaxation ω of the sweep: tiles change by ω times what their contacts ask for; pistons are not relaxed
+    SweepSums total(double relaxation) const
     {
         SweepSums sum;
         for (const auto& part : of_tile) sum += part;
+        sum.change /= relaxation * relaxation;
         sum += of_pistons;
         return sum;
     }
@@ -62,7 +64,7 @@ template <class R> double apply_warm_start(ContactNetwork& network, Motion* moti
     PartialSums sums(network.tiles.count());
     const auto work = [&](std::size_t tile) { sums.of_tile[tile] = warm_start_tile<R>(network, tile, motion); };
     with_tile_crew(network.tiles, [&](TileCrew& crew) { crew.color_by_color(work); });
-    return sums.total().size;
+    return sums.total(unrelaxed).size;
 }
 
 /// Every contact once. Called by all threads of the crew.
@@ -102,11 +104,12 @@ SolveReport solve(ContactNetwork& network, PistonGroup& pistons, Motion* motion,
         double change = infinity, error = infinity;
         while (error > solver.tolerance && sweeps < solver.max_sweeps) {
             auto& sums = swept[static_cast<std::size_t>(sweeps % 2)];
-            sweep<R>(crew, network, pistons, motion, sweeps < solver.min_sweeps ? unrelaxed : solver.relaxation, sums);
+            const double relaxation = sweeps < solver.min_sweeps ? unrelaxed : solver.relaxation;
+            sweep<R>(crew, network, pistons, motion, relaxation, sums);
             ++sweeps;
-            // ε after a sweep is about what the next sweep would change: as much less as this one changed less than the
-            // last.
-            const double last_change = std::exchange(change, residual(sums.total()));
+            // ε after a sweep is about what the next one would ask for: as much less as this one asked for less than
+            // the last.
+            const double last_change = std::exchange(change, residual(sums.total(relaxation)));
             const double expected = change < last_change ? change * change / last_change : change;
             const bool ready = sweeps >= solver.min_sweeps && (expected <= solver.tolerance || change == 0.0);
             if (!ready && sweeps < solver.max_sweeps) continue;
@@ -114,7 +117,7 @@ SolveReport solve(ContactNetwork& network, PistonGroup& pistons, Motion* motion,
                 measured.of_tile[tile] = relax_tile<R, false>(network, tile, motion, unrelaxed);
             });
             if (!pistons.empty()) crew.by_one([&] { measured.of_pistons = pistons.measure(motion); });
-            error = residual(measured.total());
+            error = residual(measured.total(unrelaxed));
         }
 #pragma omp single nowait
         report = {sweeps, error, error <= solver.tolerance};

@@ -152,7 +152,7 @@ struct SolverTable {
     NumberOrName tolerance = {0.0, "auto"};
     std::int64_t min_sweeps = 0;
     std::int64_t max_sweeps = 100;
-    double relaxation = 1.0;
+    double relaxation = 1.3;
     double restitution_threshold = 3.0;
     NumberOrName push_out_speed = {0.0, "auto"};
     SwitchOrName pressure_scaling = {false, "auto"};
@@ -174,9 +174,8 @@ struct SolverTable {
         key("max_sweeps", self.max_sweeps, between(1, 1000000), "",
             "sweeps after which a step goes on unconverged, which is counted and told");
         key("relaxation", self.relaxation, between(0.5, 1.6), "",
-            "of the sweeps after the least number; above 1 they go farther than each contact asks for: fast flows "
-            "converge "
-            "in fewer sweeps, slow ones in more");
+            "of the sweeps after the least number; above 1 they go farther than each contact asks for, by which fast "
+            "flows converge in fewer sweeps");
         key("restitution_threshold", self.restitution_threshold, at_least(0.0), "gravity x step",
             "slower impacts do not rebound");
         key("push_out_speed", self.push_out_speed, Allowed{.min = 0.0, .names = {"auto"}}, "m/s",
@@ -184,7 +183,7 @@ struct SolverTable {
             "diameter / step");
         key("pressure_scaling", self.pressure_scaling, one_of({"auto"}), "",
             "carries changes of load through the whole bed at once; only with projected; auto: with projected, where "
-            "the bed is ten grains deep or something rests on grains much lighter, but not along periodic axes");
+            "the bed is forty grains deep or something rests on grains much lighter, but not along periodic axes");
         key("on_no_solution", self.on_no_solution, one_of({"stop", "go_on"}), "",
             "when walls press spheres together so that projected, which is rigid, has no solution; go_on: their "
             "contacts yield, and the run tells of them");

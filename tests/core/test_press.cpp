@@ -49,6 +49,32 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("what is beyond solution yields until it has not been pressed for as many steps, and is told once", "[press]")
+{
+    std::uint8_t touched = 0;
+    for (int k = 1; k <= pressed_steps; ++k) touched = count_pressed(touched);
+    REQUIRE(came_beyond_solution(touched));
+    for (int k = 1; k < pressed_steps; ++k) {
+        touched = count_unpressed(touched);
+        CHECK(is_beyond_solution(touched));
+        CHECK_FALSE(came_beyond_solution(touched));
+    }
+    SECTION("one step more, and it is as any other")
+    {
+        touched = count_unpressed(touched);
+        CHECK(touched == 1);
+        CHECK(count_unpressed(touched) == 1);
+    }
+    SECTION("pressed again, it yields for as long again")
+    {
+        touched = count_pressed(touched);
+        CHECK_FALSE(came_beyond_solution(touched));
+        for (int k = 1; k < pressed_steps; ++k) touched = count_unpressed(touched);
+        CHECK(is_beyond_solution(touched));
+        CHECK(count_unpressed(touched) == 1);
+    }
+}
+
 TEST_CASE("overlaps at the start, a shaken bed and a heavy plate are no presses", "[press]")
 {
     SECTION("random places, a solid fraction of 0.5, with and without gravity")

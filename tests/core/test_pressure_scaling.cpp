@@ -106,6 +106,19 @@ struct WarmStep {
     CoarseEnergy energy() { return coarse_energy(loads(), grid(), world.state, world.model); }
 };
 
+/// A variant at a step that has something to mend. Where the energy would rise a correction is refused.
+World variant_to_mend(int k)
+{
+    World world = variant(k);
+    const auto is_refused = [&] {
+        WarmStep step(world);
+        step.push_top(0.01);
+        return step.scale().step == 0.0;
+    };
+    for (int tries = 0; tries < 100 && is_refused(); ++tries) world.step();
+    return world;
+}
+
 /// ½ Σ m |Δv|² + ½ Σ 2/5 m |Δa|² between two states of motion.
 double energy_between(const State& before, const State& after)
 {
@@ -157,7 +170,7 @@ TEST_CASE("a correction changes velocities by M⁻¹ Gᵀ of the impulses and ke
 {
     const int k = GENERATE(range(0, variants));
     CAPTURE(k);
-    WarmStep step(variant(k));
+    WarmStep step(variant_to_mend(k));
     step.push_top(0.01);
     step.pistons.store(step.world.contacts, step.world.state);
     const State before = step.world.state;
@@ -198,7 +211,7 @@ TEST_CASE("a correction takes energy out and ends where it is least", "[pressure
     // cut, its slope Σ growth λ·y vanishes. It is measured from the contacts, after the fact.
     const int k = GENERATE(range(0, variants));
     CAPTURE(k);
-    WarmStep step(variant(k));
+    WarmStep step(variant_to_mend(k));
     step.push_top(0.01);
     const auto potential = [&] {
         double sum = 0.0;
