@@ -12,7 +12,7 @@ namespace talus
 namespace
 {
 
-constexpr double deep = 10.0;       ///< mean diameters; in shallower beds sweeps alone do as well
+constexpr double deep = 40.0;       ///< mean diameters; in shallower beds at rest sweeps alone do nearly as well
 constexpr double very_deep = 100.0; ///< mean diameters; there three sweeps do not clean up after it (hard case 33)
 constexpr int sweeps_in_very_deep = 6;
 constexpr double heavy = 10.0;       ///< times the lightest sphere
@@ -84,7 +84,7 @@ void choose_pressure_scaling(const scene::Scene& scene, Simulation& simulation)
     const bool useful = !simulation.model.periodicity.any() && (depth >= deep || all.heaviest >= heavy * all.lightest);
     solver.pressure_scaling = open ? useful : asked.on;
     if (solver.pressure_scaling && depth >= very_deep && scene.solver.min_sweeps == 0)
-        solver.min_sweeps = std::min(sweeps_in_very_deep, solver.max_sweeps);
+        solver.min_sweeps = std::clamp(sweeps_in_very_deep, solver.min_sweeps, solver.max_sweeps);
 }
 
 } // namespace talus

@@ -31,16 +31,16 @@ SolverSettings solver_of(const scene::Scene& scene)
 
 } // namespace
 
-TEST_CASE("pressures are scaled in rigid beds of ten grains and more", "[scaling_choice]")
+TEST_CASE("pressures are scaled in rigid beds of forty grains and more", "[scaling_choice]")
 {
-    CHECK_FALSE(solver_of(tube(8)).pressure_scaling);
-    CHECK(solver_of(tube(12)).pressure_scaling);
+    CHECK_FALSE(solver_of(tube(36)).pressure_scaling);
+    CHECK(solver_of(tube(44)).pressure_scaling);
 
-    auto soft = tube(12);
+    auto soft = tube(44);
     soft.solver.stabilisation = "matched";
     CHECK_FALSE(solver_of(soft).pressure_scaling);
 
-    auto periodic = tube(12);
+    auto periodic = tube(44);
     periodic.world.periodic = {"x"};
     periodic.world.min = Vec3::Zero();
     periodic.world.max = Vec3(0.04, 0.04, 10.0);
@@ -64,7 +64,7 @@ TEST_CASE("pressures are scaled under what is ten times as heavy", "[scaling_cho
 
 TEST_CASE("whether pressures are scaled is as the scene says, if it does", "[scaling_choice]")
 {
-    auto shallow = tube(8), deep = tube(12);
+    auto shallow = tube(36), deep = tube(44);
     shallow.solver.pressure_scaling = {true, ""};
     deep.solver.pressure_scaling = {false, ""};
     CHECK(solver_of(shallow).pressure_scaling);
