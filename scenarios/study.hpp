@@ -35,7 +35,7 @@ struct Study {
         {"time.step", {"x0.5", "x2", "x4"}},
         {"solver.min_sweeps", {"1", "4", "10"}},
         {"solver.tolerance", {"draft", "fine"}},
-        {"solver.relaxation", {"1.2", "1.4"}},
+        {"solver.relaxation", {"1", "1.5"}},
         {"solver.pressure_scaling", {"true", "false"}},
     };
 

@@ -140,7 +140,7 @@ std::vector<double> Findings::profile() const
     return mean;
 }
 
-Measurement velocity_error_of_next_step(Simulation& simulation)
+double velocity_error_of_next_step(Simulation& simulation)
 {
     const std::string before = state_of(simulation);
     const SolverSettings usual = simulation.model.solver;
@@ -158,7 +158,7 @@ Measurement velocity_error_of_next_step(Simulation& simulation)
     const auto count = static_cast<double>(std::max<std::size_t>(1, velocity.size()));
     simulation.model.solver = usual;
     put_back(simulation, before);
-    return {"velocity_error", std::sqrt(squares / count) / StudyUnits(simulation).speed, 0.0, "sqrt(g d)"};
+    return std::sqrt(squares / count);
 }
 
 } // namespace talus

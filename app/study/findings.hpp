@@ -67,7 +67,7 @@ private:
 };
 
 /// How far the velocities are, after the next step, from those that the same step has when it is solved to the end:
-/// root of the mean square over the spheres, in √(g d). The simulation is put back to where it was.
-Measurement velocity_error_of_next_step(Simulation& simulation);
+/// root of the mean square over the spheres [m/s]. The simulation is put back to where it was.
+double velocity_error_of_next_step(Simulation& simulation);
 
 } // namespace talus

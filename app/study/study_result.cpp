@@ -4,9 +4,11 @@
 #include "core/statistics.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 namespace talus
@@ -18,10 +20,12 @@ constexpr double sure = 1.96; ///< standard errors
 constexpr double sensor_target = 0.01;
 constexpr double notably_cheaper = 0.95; ///< CPU times scatter by some per cent
 constexpr double stands_out = 5.0;       ///< standard errors
+constexpr std::size_t most_names = 6;    ///< in one sentence
 
 /// What a run tells of itself.
 const std::vector<ErrorKind> own_kinds = {
-    {"velocity_error", "sqrt(g d)", "velocities after one step, against the same step solved to the end", false, true},
+    {"velocity_error", "sqrt(g d)", "velocities after one step, against the same step solved to the end; mean of three",
+        false, true},
     {"residual", "1", "relative residual of the steps, mean"},
     {"residual_95", "1", "95 % of the steps have less"},
     {"steps_at_cap", "1", "share of the steps that stopped at the cap of sweeps"},
@@ -83,11 +87,11 @@ ErrorValue error_in(const StudyRow& row, const StudyRow& reference, const ErrorK
     if (kind.name == profile_kind.name) return {worst_difference(row.profile, reference.profile), 0.0};
     const Measurement* m = find(row, kind.name);
     if (!m) return {unknown, unknown};
-    if (is_named_in(own_kinds, kind.name)) return {m->value, 0.0};
+    const auto known = [](double spread) { return std::isfinite(spread) ? spread : 0.0; };
+    if (is_named_in(own_kinds, kind.name)) return {m->value, known(m->spread)};
     const Measurement* r = find(reference, kind.name);
     if (!r) return {unknown, unknown};
     const double unit = kind.of_sensor ? std::abs(r->value) : 1.0;
-    const auto known = [](double spread) { return std::isfinite(spread) ? spread : 0.0; };
     return {(m->value - r->value) / unit, std::hypot(known(m->spread), known(r->spread)) / unit};
 }
 
@@ -164,12 +168,14 @@ std::string in_unit(double value, const std::string& unit)
 }
 
 /// "use X: 2.1 x faster than the default", or that the default it is.
-std::string choice(const StudyResult& result, std::size_t best)
+/// @param default_is_good the default will do as well
+std::string choice(const StudyResult& result, std::size_t best, bool default_is_good)
 {
     const StudyPoint& point = result.points[best];
-    if (best == 1 || std::abs(point.cpu / result.standard().cpu - 1.0) < 1.0 - notably_cheaper)
-        return "nothing that was tried is notably cheaper than the default";
     const double ratio = result.standard().cpu / point.cpu;
+    const bool costs_as_much = best == 1 || std::abs(1.0 / ratio - 1.0) < 1.0 - notably_cheaper;
+    if (costs_as_much && default_is_good) return "nothing that was tried is notably cheaper than the default";
+    if (costs_as_much) return fmt::format("use {}: it takes as long as the default", point.setting);
     return ratio >= 1.0 ? fmt::format("use {}: {:.2g} × faster than the default", point.setting, ratio)
                         : fmt::format("use {}: it takes {:.2g} × as long as the default", point.setting, 1.0 / ratio);
 }
@@ -179,7 +185,7 @@ std::string advice_for_default(const StudyResult& result, std::size_t kind)
     const ErrorValue had = result.standard().errors[kind];
     const auto best = cheapest(result, [&](const StudyPoint& p) { return p.errors[kind].value <= had.value; });
     return fmt::format("For no more {} than the default's {}: {}.", result.kinds[kind].name,
-        in_unit(had.value, result.kinds[kind].unit), choice(result, best.value_or(1)));
+        in_unit(had.value, result.kinds[kind].unit), choice(result, best.value_or(1), true));
 }
 
 /// Nowhere worse: of what a difference is known to, only what is above that counts.
@@ -194,19 +200,49 @@ std::string advice_for_all(const StudyResult& result)
         }
         return true;
     });
-    return fmt::format("To be nowhere worse than the default: {}.", choice(result, best.value_or(1)));
+    return fmt::format("To be nowhere worse than the default: {}.", choice(result, best.value_or(1), true));
 }
 
-std::string advice_for_target(const StudyResult& result, std::size_t kind)
+/// "one, two, three and 40 more"
+std::string first_of(const std::vector<std::string>& names)
 {
-    const std::string& name = result.kinds[kind].name;
-    const auto best = cheapest(result,
-        [&](const StudyPoint& p) { return p.errors[kind].value + sure * p.errors[kind].spread <= sensor_target; });
-    if (best) return fmt::format("For 1 % in {}: {}.", name, choice(result, *best));
-    return fmt::format(
-        "No setting is sure to be within 1 % in {}: the default differs by {:.2g} %, known to ± {:.2g} %; "
-        "more seeds or a longer time tell more.",
-        name, 100.0 * result.standard().errors[kind].value, 100.0 * sure * result.standard().errors[kind].spread);
+    const std::size_t shown = std::min(names.size(), most_names);
+    std::string text =
+        fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+    if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
+    return text;
+}
+
+/// What goes for sensors, each choice in one sentence with all the measures that it is right for.
+std::vector<std::string> advice_for_sensors(const StudyResult& result)
+{
+    std::vector<std::pair<std::string, std::vector<std::string>>> choices;
+    std::vector<std::string> unsure;
+    for (std::size_t kind = 0; kind < result.kinds.size(); ++kind) {
+        const std::string& name = result.kinds[kind].name;
+        const ErrorValue had = result.standard().errors[kind];
+        if (!result.kinds[kind].of_sensor || !result.kinds[kind].advised || !std::isfinite(had.value)) continue;
+        const auto is_good = [&](const StudyPoint& p) {
+            return p.errors[kind].value + sure * p.errors[kind].spread <= sensor_target;
+        };
+        const auto best = cheapest(result, is_good);
+        if (!best) {
+            unsure.push_back(fmt::format(
+                "{} (the default differs by {:.2g} ± {:.2g} %)", name, 100.0 * had.value, 100.0 * sure * had.spread));
+            continue;
+        }
+        const std::string chosen = choice(result, *best, is_good(result.standard()));
+        auto with_it = std::ranges::find(choices, chosen, [](const auto& pair) { return pair.first; });
+        if (with_it == choices.end()) with_it = choices.insert(choices.end(), {chosen, {}});
+        with_it->second.push_back(name);
+    }
+    std::vector<std::string> sentences;
+    for (const auto& [chosen, names] : choices)
+        sentences.push_back(fmt::format("For 1 % in {}: {}.", first_of(names), chosen));
+    if (!unsure.empty())
+        sentences.push_back(fmt::format(
+            "No setting is sure to be within 1 % in {}; more seeds or a longer time tell more.", first_of(unsure)));
+    return sentences;
 }
 
 } // namespace
@@ -222,7 +258,10 @@ StudyResult compare(const std::vector<Setting>& settings, const std::vector<Stud
         const auto twin = std::ranges::find_if(result.points, [&](const StudyPoint& earlier) {
             return point.is_done() && earlier.is_done() && are_the_same_run(rows, point.setting, earlier.setting);
         });
-        if (twin != result.points.end()) point.status = fmt::format("the same run as {}", twin->setting);
+        if (twin != result.points.end()) {
+            point.status = fmt::format("the same run as {}", twin->setting);
+            twin->cpu += (point.cpu - twin->cpu) / ++twin->equal_settings;
+        }
         result.points.push_back(point);
     }
     return result;
@@ -249,9 +288,10 @@ std::vector<std::string> advice(const StudyResult& result)
     if (result.points.size() < 2 || !result.standard().is_done()) return sentences;
     sentences.push_back(advice_for_all(result));
     for (std::size_t kind = 0; kind < result.kinds.size(); ++kind)
-        if (result.kinds[kind].advised && std::isfinite(result.standard().errors[kind].value))
-            sentences.push_back(
-                result.kinds[kind].of_sensor ? advice_for_target(result, kind) : advice_for_default(result, kind));
+        if (result.kinds[kind].advised && !result.kinds[kind].of_sensor &&
+            std::isfinite(result.standard().errors[kind].value))
+            sentences.push_back(advice_for_default(result, kind));
+    std::ranges::copy(advice_for_sensors(result), std::back_inserter(sentences));
     return sentences;
 }
 

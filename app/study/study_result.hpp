@@ -29,8 +29,9 @@ struct ErrorValue {
 struct StudyPoint {
     std::string setting;
     std::string status = "done";         ///< or why it failed, for the first seed where it did
-    double cpu = 0.0;                    ///< mean over the seeds, for a simulated second [s]
-    double updates = 0.0;                ///< likewise
+    double cpu = 0.0;                    ///< mean over the seeds and equal settings, for a simulated second [s]
+    int equal_settings = 1;              ///< that came to the same bits, this one among them
+    double updates = 0.0;                ///< contact updates, likewise
     double memory = 0.0;                 ///< the most [B]
     std::vector<ErrorValue> errors = {}; ///< by kind; empty where it failed
 
@@ -56,8 +57,8 @@ StudyResult compare(const std::vector<Setting>& settings, const std::vector<Stud
 /// reference is not among them: it has no error against itself.
 std::vector<std::size_t> front(const StudyResult& result, std::size_t kind);
 
-/// What the result advises, a sentence for each kind of error: the cheapest setting that keeps what the default has,
-/// and for a sensor the cheapest that is sure (95 %) to be within a per cent.
+/// What the result advises: a sentence for each kind of error, with the cheapest setting that keeps what the default
+/// has; and for sensors the cheapest that is sure (95 %) to be within a per cent, one for all that it is right for.
 std::vector<std::string> advice(const StudyResult& result);
 
 } // namespace talus

@@ -5,6 +5,7 @@
 #include "app/open_scene.hpp"
 #include "app/study/findings.hpp"
 #include "app/study/saved_state.hpp"
+#include "core/statistics.hpp"
 #include "io/input_error.hpp"
 #include "io/summary.hpp"
 #include "scenarios/scene_checks.hpp"
@@ -22,6 +23,9 @@ namespace
 {
 
 namespace fs = std::filesystem;
+
+/// How often the velocity error is taken: it is of one step, and differs from step to step.
+constexpr int velocity_looks = 3;
 
 /// Of this process [s].
 double cpu_time()
@@ -60,19 +64,19 @@ std::string told(const Simulation& simulation, const StepReport& report)
 }
 
 /// Makes steps until a time, and tells each to `observe`. Returns what went wrong.
-std::string run_until(double time, OpenedScene& opened,
-    const std::function<void(const StepReport&, double cpu)>& observe, double longest = infinity)
+/// @param cpu time of the steps, added to what it was [s]
+/// @param longest that it may become
+std::string run_until(double time, OpenedScene& opened, const std::function<void(const StepReport&)>& observe,
+    double& cpu, double longest = infinity)
 {
     Simulation& simulation = opened.simulation;
     const IncidentPolicy policy(opened.scene);
-    double cpu = 0.0;
     while (!has_reached(simulation, time)) {
         const double before = cpu_time();
         const StepReport report = step(simulation);
-        const double taken = cpu_time() - before;
-        cpu += taken;
+        cpu += cpu_time() - before;
         if (policy.stops(report)) return told(simulation, report);
-        observe(report, taken);
+        observe(report);
         take_out_escaped(simulation, report);
         if (cpu > longest)
             return fmt::format("given up after {:.3g} s of CPU, at t = {:.4g} s", cpu, simulation.state.time);
@@ -80,27 +84,29 @@ std::string run_until(double time, OpenedScene& opened,
     return "";
 }
 
-void ignore(const StepReport&, double) {}
+void ignore(const StepReport&) {}
 
 /// Lets the setting settle, and measures it. Returns what went wrong.
 std::string fill_row(StudyRow& row, const StudyFrame& frame, OpenedScene& opened)
 {
     Simulation& simulation = opened.simulation;
-    const double longest = frame.study.longest;
-    if (const std::string failure = run_until(frame.measured_from(), opened, ignore, longest); !failure.empty())
-        return failure;
-    row.findings.push_back(velocity_error_of_next_step(simulation));
+    const double longest = frame.study.longest, from = frame.measured_from();
+    double settling_cpu = 0.0, cpu = 0.0;
+    std::string failure = run_until(from, opened, ignore, settling_cpu, longest);
+    if (!failure.empty()) return failure;
+
     Findings findings(simulation, opened.scene.time.metrics_interval);
-    const double began = simulation.state.time;
-    double cpu = 0.0;
-    const auto observe = [&](const StepReport& report, double taken) {
-        cpu += taken;
-        findings.add(report, simulation);
-    };
-    const std::string failure = run_until(frame.end, opened, observe, longest);
+    const double began = simulation.state.time, unit = StudyUnits(simulation).speed;
+    const auto observe = [&](const StepReport& report) { findings.add(report, simulation); };
+    MeanAndError velocity_error;
+    for (int part = 1; part <= velocity_looks && failure.empty(); ++part) {
+        velocity_error.add(velocity_error_of_next_step(simulation) / unit);
+        failure = run_until(from + part * (frame.end - from) / velocity_looks, opened, observe, cpu, longest);
+    }
     const double simulated = simulation.state.time - began;
     row.cpu = cpu / simulated;
     row.updates = findings.contact_updates() / simulated;
+    row.findings.push_back({"velocity_error", velocity_error.mean(), velocity_error.standard_error(), "sqrt(g d)"});
     for (const Measurement& m : findings.results(simulation)) row.findings.push_back(m);
     row.profile = findings.profile();
     return failure;
@@ -112,7 +118,8 @@ std::string make_start(const StudyFrame& frame, std::int64_t seed)
 {
     try {
         OpenedScene opened = open_setting(frame, {}, seed);
-        if (const std::string failure = run_until(frame.start, opened, ignore); !failure.empty()) return failure;
+        double cpu = 0.0;
+        if (const std::string failure = run_until(frame.start, opened, ignore, cpu); !failure.empty()) return failure;
         save_state(opened.simulation, state_folder(frame, seed));
         return "";
     } catch (const std::exception& error) {

@@ -208,9 +208,47 @@ TEST_CASE("where the measure's own spread is too large, no setting is recommende
         compare(four_settings, {row("reference", 100.0, 1e-6, 8.0, 2.0), row("default", 2.0, 1e-4, 8.0, 2.01, 0.1)});
     const auto sentences = advice(result);
     CHECK(std::ranges::any_of(sentences, [](const std::string& sentence) {
-        return sentence.starts_with("No setting is sure to be within 1 % in outlet mass_flow: the default differs by "
-                                    "0.5 %, known to ± 9.8 %");
+        return sentence.starts_with("No setting is sure to be within 1 % in outlet mass_flow (the default differs by "
+                                    "0.5 ± 9.8 %);");
     }));
+}
+
+TEST_CASE("a setting that costs as much as a default that is not good enough is named", "[app][study]")
+{
+    const auto result =
+        compare(four_settings, {row("reference", 100.0, 1e-6, 8.0, 2.0), row("default", 2.0, 1e-4, 8.0, 2.1),
+                                   row("fast", 1.97, 1e-4, 8.0, 2.001, 1e-4)});
+    CHECK(std::ranges::count(
+              advice(result), "For 1 % in outlet mass_flow: use fast: it takes as long as the default.") == 1);
+}
+
+TEST_CASE("measures that one setting is right for stand in one sentence, and of many the first", "[app][study]")
+{
+    const auto with_many = [](StudyRow made, double value, double spread) {
+        for (int k = 0; k < 9; ++k) made.findings.push_back({"floor force_" + std::to_string(k), value, spread, "N"});
+        return made;
+    };
+    const auto sentences_with = [&](double spread) {
+        return advice(compare(four_settings, {with_many(row("reference", 100.0, 1e-6, 8.0, 2.0), 5.0, 0.0),
+                                                 with_many(row("default", 2.0, 1e-4, 8.0, 2.0), 5.0, spread),
+                                                 with_many(row("fast", 1.0, 1e-3, 8.0, 2.0), 5.0, spread)}));
+    };
+    CHECK(std::ranges::count(sentences_with(0.0), "For 1 % in outlet mass_flow, floor force_0, floor force_1, floor "
+                                                  "force_2, floor force_3, floor force_4 and 4 "
+                                                  "more: use fast: 2 × faster than the default.") == 1);
+    const auto unsure = sentences_with(0.5);
+    CHECK(std::ranges::count_if(unsure, [](const std::string& s) { return s.starts_with("No setting is sure"); }) == 1);
+    CHECK_THAT(unsure.back(), Contains("floor force_0 (the default differs by 0 ± 20 %)") && Contains("and 3 more;"));
+}
+
+TEST_CASE("settings that came to the same run are one, with the mean of their CPU times", "[app][study]")
+{
+    const auto result =
+        compare(four_settings, {row("reference", 100.0, 1e-6, 8.0, 2.0), row("default", 2.0, 1e-4, 8.0, 2.0),
+                                   row("fast", 3.5, 1e-4, 8.0, 2.0), row("slow", 2.0, 1e-4, 8.0, 2.0)});
+    CHECK(result.standard().cpu == Approx(2.5));
+    CHECK(result.points[2].status == "the same run as default");
+    CHECK(result.points[3].status == "the same run as default");
 }
 
 TEST_CASE("a task that crashes takes nothing with it", "[app][study]")
@@ -310,7 +348,7 @@ TEST_CASE("the velocity error of a step is measured without a trace", "[app][stu
         }
     };
     both_make_steps(400);
-    const double error = velocity_error_of_next_step(measured).value;
+    const double error = velocity_error_of_next_step(measured);
     CHECK(error > 1e-12);
     CHECK(error < 0.1);
     both_make_steps(50);
@@ -318,7 +356,7 @@ TEST_CASE("the velocity error of a step is measured without a trace", "[app][stu
 
     measured.model.solver.tolerance = 1e-10;
     measured.model.solver.max_sweeps = 5000;
-    CHECK(velocity_error_of_next_step(measured).value < 1e-3 * error);
+    CHECK(velocity_error_of_next_step(measured) < 1e-3 * error);
 }
 
 TEST_CASE("a study that was stopped goes on where it was", "[app][study]")
