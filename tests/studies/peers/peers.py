@@ -8,7 +8,8 @@ against CPU seconds.
 
 Every code begins, for each seed of the study, from the bed that Talus has when half of the time to the opening of the
 gate is over, and settles for the rest of it with its own contacts. The mass flow is the slope of the mass that has
-passed the outlet, over the same times. Errors are against the study's reference, a run of Talus.
+passed the outlet, and CPU seconds are taken, over the same times. Errors are against the study's reference, a run of
+Talus.
 
 LAMMPS and LIGGGHTS have springs (Hertz and Mindlin): what they trade is Young's modulus, with a time step of a fifth of
 Rayleigh's. Restitution and friction are those of the scene. A code that is not installed is skipped, with a word.
@@ -23,11 +24,11 @@ import csv
 import json
 import math
 import os
-import resource
 import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import tomllib
 from pathlib import Path
 from typing import NamedTuple
@@ -49,9 +50,10 @@ from matplotlib import pyplot  # noqa: E402  after the choice of a backend witho
 POISSON = 0.25
 STEP_SHARE = 0.2  # of Rayleigh's time
 SAMPLES = 200  # of the mass that has passed
+LOOK = 0.02  # s between two looks at the CPU seconds
 FLOW = "outlet mass_flow"
-NAMED = ("default", "projected", "matched, step=x4", "matched, relaxation=1.4", "projected, tolerance=fine")
-COLUMNS = ["code", "setting", "seed", "cpu_s_per_s", "mass_flow_kg_per_s"]
+NAMED = ("default", "projected", "matched, step=x4", "matched, tolerance=draft", "projected, tolerance=fine")
+COLUMNS = ["code", "setting", "seed", "cpu_s_per_s_in_window", "mass_flow_kg_per_s"]
 
 
 class StudyError(Exception):
@@ -195,11 +197,10 @@ def contact_between(scene, materials):
 
 
 def run_peer(peer, program, modulus, bed, scene, window):
-    """CPU seconds a simulated second, and the mass flow."""
+    """CPU seconds a simulated second, and the mass flow, both in the window that the study measures."""
     step = STEP_SHARE * rayleigh_time(bed, modulus)
     mesh = HERE.parents[2] / "scenarios" / "hopper.stl"
     beads, wall = contact_between(scene, ["glass", "glass"]), contact_between(scene, ["glass", "steel"])
-    simulated = window.end - window.handed_over
     variables = {
         "modulus": modulus, "restitution": beads["restitution"], "friction": beads["friction"],
         "wall_friction": wall["friction"], "step": step,
@@ -213,34 +214,49 @@ def run_peer(peer, program, modulus, bed, scene, window):
         command = [program, "-in", str(HERE / peer.script), "-log", "none"]
         for name, value in variables.items():
             command += ["-var", name, f"{value:.9g}"]
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False,
-                              env={**os.environ, "OMP_NUM_THREADS": "1"})
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        if done.returncode != 0:
-            last = (done.stdout + done.stderr).strip().splitlines()[-1:]
-            raise PeerError(f"{peer.name} failed with {modulus:.0e} Pa: {' '.join(last)}")
-        flow = mass_flow(folder / "flow.txt", bed, window)
-    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return cpu / simulated, flow
-
-
-def mass_flow(path, bed, window):
-    """Slope of the mass that has passed [kg/s]."""
-    time, behind = numpy.loadtxt(path, comments="#").T
+        cpu = cpu_while_running(peer, modulus, command, folder)
+        passed, behind = numpy.loadtxt(folder / "flow.txt", comments="#").T
     whole = bed.density * (4 / 3 * math.pi * bed.radius**3).sum()
     if abs(behind[0] - whole) > 0.01 * whole:
         raise PeerError(f"Of {whole:.4g} kg of beads {behind[0]:.4g} are in the hopper when it opens.")
-    time = time + window.handed_over
-    steady = (time >= window.measured_from) & (time <= window.end)
-    return -numpy.polyfit(time[steady], behind[steady], 1)[0]
+    return slope_in(window, *cpu), -slope_in(window, passed, behind)
+
+
+def slope_in(window, times, values):
+    """Of what grows with the time of the simulation, while the study measures [1/s]."""
+    times = times + window.handed_over
+    steady = (times >= window.measured_from) & (times <= window.end)
+    return numpy.polyfit(times[steady], values[steady], 1)[0]
+
+
+def cpu_while_running(peer, modulus, command, folder):
+    """Runs a peer. Returns times that its simulation has come to, and CPU seconds that it has used by then."""
+    flow, said = folder / "flow.txt", folder / "said.txt"
+    times, cpu = [], []
+    with said.open("w", encoding="utf-8") as output:
+        process = subprocess.Popen(command, cwd=folder, stdout=output, stderr=subprocess.STDOUT,
+                                   env={**os.environ, "OMP_NUM_THREADS": "1"})
+        while process.poll() is None:
+            time.sleep(LOOK)
+            line = flow.read_text(encoding="utf-8").splitlines()[-1:] if flow.is_file() else []
+            try:
+                user_and_system = Path(f"/proc/{process.pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()[11:13]
+                now = float(line[0].split()[0])
+            except (FileNotFoundError, ProcessLookupError, IndexError, ValueError):
+                continue  # it has ended, or has written nothing yet, or half a line
+            times.append(now)
+            cpu.append(sum(map(int, user_and_system)) / os.sysconf("SC_CLK_TCK"))
+    if process.returncode != 0:
+        last = said.read_text(encoding="utf-8").strip().splitlines()[-1:]
+        raise PeerError(f"{peer.name} failed with {modulus:.0e} Pa: {' '.join(last)}")
+    return numpy.array(times), numpy.array(cpu)
 
 
 def read_done(path):
     if not path.is_file():
         return []
     with path.open(newline="", encoding="utf-8") as file:
-        return [Measured(row["code"], row["setting"], int(row["seed"]), float(row["cpu_s_per_s"]),
+        return [Measured(row["code"], row["setting"], int(row["seed"]), float(row["cpu_s_per_s_in_window"]),
                          float(row["mass_flow_kg_per_s"])) for row in csv.DictReader(file) if row["code"] != "Talus"]
 
 
@@ -289,20 +305,21 @@ class Point(NamedTuple):
 
 
 def points(runs):
-    """The runs of each setting against the reference of the same seeds; the reference itself is left out, and so are
-    settings that came to the same flow as an earlier one."""
+    """The runs of each setting against the reference of the same seeds; the reference itself is left out. Settings that
+    came to the same flows are one, by the name of the first."""
     reference = {run.seed: run.flow for run in runs if (run.code, run.setting) == ("Talus", "reference")}
-    kinds = dict.fromkeys((run.code, run.setting) for run in runs)
-    found = []
-    for code, setting in kinds:
+    alike = {}
+    for code, setting in dict.fromkeys((run.code, run.setting) for run in runs):
         if (code, setting) == ("Talus", "reference"):
             continue
         same = [run for run in runs if (run.code, run.setting) == (code, setting) and run.seed in reference]
-        errors = [run.flow / reference[run.seed] - 1.0 for run in same]
-        if float(numpy.mean(errors)) in (point.error for point in found):
-            continue
+        alike.setdefault((code, *((run.seed, run.flow) for run in same)), []).extend(same)
+    found = []
+    for same in alike.values():
+        errors = list({run.seed: run.flow / reference[run.seed] - 1.0 for run in same}.values())
         spread = numpy.std(errors, ddof=1) / math.sqrt(len(errors)) if len(errors) > 1 else math.nan
-        found.append(Point(code, setting, float(numpy.mean([run.cpu for run in same])), float(numpy.mean(errors)), spread))
+        cpu = float(numpy.mean([run.cpu for run in same]))
+        found.append(Point(same[0].code, same[0].setting, cpu, float(numpy.mean(errors)), spread))
     return found
 
 
