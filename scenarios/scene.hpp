@@ -174,8 +174,8 @@ struct SolverTable {
         key("max_sweeps", self.max_sweeps, between(1, 1000000), "",
             "sweeps after which a step goes on unconverged, which is counted and told");
         key("relaxation", self.relaxation, between(0.5, 1.6), "",
-            "of the sweeps after the least number; above 1 they go farther than each contact asks for, by which fast "
-            "flows converge in fewer sweeps");
+            "of the sweeps after the least number, but where pressures are scaled; above 1 they go farther than each "
+            "contact asks for, by which fast flows converge in fewer sweeps");
         key("restitution_threshold", self.restitution_threshold, at_least(0.0), "gravity x step",
             "slower impacts do not rebound");
         key("push_out_speed", self.push_out_speed, Allowed{.min = 0.0, .names = {"auto"}}, "m/s",
