@@ -240,7 +240,8 @@ def cpu_while_running(peer, modulus, command, folder):
             time.sleep(LOOK)
             line = flow.read_text(encoding="utf-8").splitlines()[-1:] if flow.is_file() else []
             try:
-                user_and_system = Path(f"/proc/{process.pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()[11:13]
+                status = Path(f"/proc/{process.pid}/stat").read_text(encoding="ascii")
+                user_and_system = status.rpartition(")")[2].split()[11:13]  # in clock ticks, see proc(5)
                 now = float(line[0].split()[0])
             except (FileNotFoundError, ProcessLookupError, IndexError, ValueError):
                 continue  # it has ended, or has written nothing yet, or half a line
