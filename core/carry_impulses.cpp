@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/carry_impulses.hpp"
 
-#include "core/press.hpp"
+#include "core/press_count.hpp"
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace talus
 namespace
 {
 
-/// Tells which contacts are pressed (press.hpp); none with `matched`, whose contacts give way, none at pistons, and
+/// Tells which contacts are pressed (press_count.hpp); none with `matched`, whose contacts give way, none at pistons, and
 /// none where no wall moves as told: to stand still obeys every contact then.
 struct PressGauge {
     const std::vector<Motion>& motion;

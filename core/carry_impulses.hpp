@@ -13,7 +13,7 @@ struct ContactOutcome {
     double cone_violation = 0.0;      ///< worst |λ_t| − μ λ_n [N s], 0 if none
     Vec3 wall_impulse = Vec3::Zero(); ///< Σ λ over the contacts with walls that are not pistons [N s]
     double wall_work = 0.0;           ///< what moving walls did on the spheres, Σ λ·w and rolling rows likewise [J]
-    std::size_t beyond_solution = 0;  ///< contacts that came to be so in this step (press.hpp)
+    std::size_t beyond_solution = 0;  ///< contacts that came to be so in this step (press_count.hpp)
 
     ContactOutcome& operator+=(const ContactOutcome& other);
 };

@@ -2,7 +2,7 @@
 #include "core/contact_assembly.hpp"
 
 #include "core/candidate_search.hpp"
-#include "core/press.hpp"
+#include "core/press_count.hpp"
 #include "core/stabilisation.hpp"
 #include "core/wall_contacts.hpp"
 

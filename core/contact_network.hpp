@@ -17,7 +17,7 @@ struct CarriedImpulses {
     std::vector<Vec3> impulse;         ///< λ [N s], zero where nothing is carried
     std::vector<Vec3> rolling_impulse; ///< [N m s]; empty unless the scene has rolling resistance
     /// 0: in the step before it neither overlapped nor, unless open, had an impulse; 1 did, and so did what
-    /// has more, which has been pressed (press.hpp).
+    /// has more, which has been pressed (press_count.hpp).
     std::vector<std::uint8_t> touched;
 
     CarriedImpulses() = default;

@@ -34,7 +34,7 @@ struct ContactEvent {
     double u_n;                   ///< of v⁽⁰⁾, before gravity [m/s]
     double inverse_mass_sum;      ///< W [1/kg]
     double carried_normal;        ///< λ_n⁽⁰⁾ [N s]
-    bool beyond_solution = false; ///< press.hpp
+    bool beyond_solution = false; ///< press_count.hpp
 };
 
 /// Σ_n of a resting contact of `matched`: that of the material's stiffness k, but no stiffer than N_min sweeps can
