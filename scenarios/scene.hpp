@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/vector.hpp"
-#include "core/wall_motion.hpp"
+#include "core/base/vector.hpp"
+#include "core/world/wall_motion.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/simulation.hpp"
 
-#include "core/neighbor_search.hpp"
-#include "core/placed_wall.hpp"
-#include "core/saved_state.hpp"
-#include "core/sub_steps.hpp"
+#include "core/candidates/neighbor_search.hpp"
+#include "core/step/saved_state.hpp"
+#include "core/step/sub_steps.hpp"
+#include "core/world/placed_wall.hpp"
 
 namespace talus
 {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/contact_network.hpp"
-#include "core/escape.hpp"
-#include "core/model.hpp"
-#include "core/outlet.hpp"
-#include "core/pour.hpp"
-#include "core/sensor.hpp"
-#include "core/state.hpp"
-#include "core/time_step.hpp"
+#include "core/candidates/contact_network.hpp"
+#include "core/sensors/sensor.hpp"
+#include "core/step/time_step.hpp"
+#include "core/supply/escape.hpp"
+#include "core/supply/outlet.hpp"
+#include "core/supply/pour.hpp"
+#include "core/world/model.hpp"
+#include "core/world/state.hpp"
 #include "scenarios/output_choice.hpp"
 
 #include <memory>

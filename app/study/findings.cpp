@@ -2,7 +2,7 @@
 #include "app/study/findings.hpp"
 
 #include "app/study/saved_state.hpp"
-#include "core/loaded_contacts.hpp"
+#include "core/contacts/loaded_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/log_histogram.hpp"
-#include "app/run_statistics.hpp"
-#include "app/schedule.hpp"
-#include "core/force_profile.hpp"
-#include "core/quietness.hpp"
+#include "app/loop/log_histogram.hpp"
+#include "app/loop/run_statistics.hpp"
+#include "app/loop/schedule.hpp"
+#include "core/sensors/force_profile.hpp"
+#include "core/sensors/quietness.hpp"
 #include "scenarios/simulation.hpp"
 
 #include <cstdint>

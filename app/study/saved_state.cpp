@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/study/saved_state.hpp"
 
-#include "io/checkpoint.hpp"
-#include "io/input_error.hpp"
+#include "io/run/checkpoint.hpp"
+#include "io/text/input_error.hpp"
 
 #include <fmt/format.h>
 

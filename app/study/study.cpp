@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/study/study.hpp"
 
-#include "app/open_scene.hpp"
-#include "app/signals.hpp"
+#include "app/loop/open_scene.hpp"
 #include "app/study/findings.hpp"
 #include "app/study/study_page.hpp"
 #include "app/study/study_result.hpp"
 #include "app/study/study_run.hpp"
 #include "app/study/workers.hpp"
-#include "app/terminal.hpp"
-#include "core/statistics.hpp"
-#include "io/checksum.hpp"
-#include "io/input_error.hpp"
-#include "io/run_files.hpp"
-#include "io/scene_file.hpp"
-#include "io/scene_files.hpp"
-#include "io/study_file.hpp"
-#include "scenarios/build_scene.hpp"
+#include "app/system/signals.hpp"
+#include "app/system/terminal.hpp"
+#include "core/base/statistics.hpp"
+#include "io/run/run_files.hpp"
+#include "io/scene/scene_file.hpp"
+#include "io/scene/scene_files.hpp"
+#include "io/scene/study_file.hpp"
+#include "io/text/checksum.hpp"
+#include "io/text/input_error.hpp"
+#include "scenarios/build/build_scene.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/command_line.hpp"
-#include "app/exit_code.hpp"
+#include "app/system/exit_code.hpp"
 
 namespace talus
 {

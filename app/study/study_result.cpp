@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/study/study_result.hpp"
 
-#include "core/statistics.hpp"
+#include "core/base/statistics.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/study/settings.hpp"
-#include "io/study_rows.hpp"
+#include "io/run/study_rows.hpp"
 
 #include <string>
 #include <vector>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/study/study_run.hpp"
 
-#include "app/incident_policy.hpp"
-#include "app/open_scene.hpp"
+#include "app/loop/incident_policy.hpp"
+#include "app/loop/open_scene.hpp"
 #include "app/study/findings.hpp"
 #include "app/study/saved_state.hpp"
-#include "core/statistics.hpp"
-#include "io/input_error.hpp"
-#include "io/summary.hpp"
-#include "scenarios/scene_checks.hpp"
+#include "core/base/statistics.hpp"
+#include "io/run/summary.hpp"
+#include "io/text/input_error.hpp"
+#include "scenarios/build/checks.hpp"
 
 #include <fmt/format.h>
 

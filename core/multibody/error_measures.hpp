@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/sweep_sums.hpp"
 #include "core/multibody/diagonal_blocks.hpp"
-#include "core/sweep_sums.hpp"
 
 namespace talus::multibody
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/periodicity.hpp"
-#include "core/vector.hpp"
+#include "core/base/periodicity.hpp"
+#include "core/base/vector.hpp"
 
 #include <array>
 #include <cstddef>

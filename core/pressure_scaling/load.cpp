@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pressure_scaling/load.hpp"
 
-#include "core/tile_contacts.hpp"
+#include "core/solver/tile_contacts.hpp"
 
 #include <numeric>
 

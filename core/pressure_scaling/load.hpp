@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/contact_network.hpp"
-#include "core/model.hpp"
-#include "core/piston_group.hpp"
+#include "core/candidates/contact_network.hpp"
 #include "core/pressure_scaling/hat_grid.hpp"
-#include "core/state.hpp"
+#include "core/solver/piston_group.hpp"
+#include "core/world/model.hpp"
+#include "core/world/state.hpp"
 
 #include <vector>
 

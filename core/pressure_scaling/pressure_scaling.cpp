@@ -2,8 +2,8 @@
 #include "core/pressure_scaling/pressure_scaling.hpp"
 
 #include "core/pressure_scaling/galerkin.hpp"
-#include "core/tile_contacts.hpp"
-#include "core/tile_crew.hpp"
+#include "core/solver/tile_contacts.hpp"
+#include "core/solver/tile_crew.hpp"
 
 #include <algorithm>
 

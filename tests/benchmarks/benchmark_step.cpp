@@ -2,7 +2,7 @@
 // Seconds per step of beds at rest and of a discharging silo. Compare two builds by the ratio of figures of one
 // session:
 //   build/benchmark_step --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
-#include "scenarios/build_scene.hpp"
+#include "scenarios/build/build_scene.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/checkpoint.hpp"
-#include "io/checksum.hpp"
-#include "io/input_error.hpp"
-#include "scenarios/build_scene.hpp"
+#include "io/run/checkpoint.hpp"
+#include "io/text/checksum.hpp"
+#include "io/text/input_error.hpp"
+#include "scenarios/build/build_scene.hpp"
 #include "tests/fuzz/fuzzed_file.hpp"
 #include "tests/scenarios/small_scene.hpp"
 

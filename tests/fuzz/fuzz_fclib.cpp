@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/multibody/algorithm_3_1.hpp"
-#include "io/fclib_problem.hpp"
-#include "io/input_error.hpp"
+#include "io/problem/fclib_problem.hpp"
+#include "io/text/input_error.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/input_error.hpp"
-#include "io/sphere_file.hpp"
+#include "io/scene/sphere_file.hpp"
+#include "io/text/input_error.hpp"
 #include "tests/fuzz/fuzzed_file.hpp"
 
 #include <string_view>

@@ -5,7 +5,7 @@
 ///     fuzz_stl CORPUS COUNT
 ///
 /// An input that ends the process is left in fuzz_stl.input, beside where it was called.
-#include "core/region.hpp"
+#include "core/base/region.hpp"
 
 #include <sys/resource.h>
 #include <unistd.h>

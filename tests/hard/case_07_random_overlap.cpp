@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hard_case.hpp"
 
-#include "app/relaxation.hpp"
-#include "core/region.hpp"
-#include "scenarios/build_scene.hpp"
+#include "app/verbs/relaxation.hpp"
+#include "core/base/region.hpp"
+#include "scenarios/build/build_scene.hpp"
 #include "tests/support/world.hpp"
 
 #include <algorithm>

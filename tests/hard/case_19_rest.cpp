@@ -4,7 +4,7 @@
 #include "tests/support/world.hpp"
 #include "tests/validation/run_scene.hpp"
 
-#include "core/loaded_contacts.hpp"
+#include "core/contacts/loaded_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hard_case.hpp"
 
-#include "core/diagnostics.hpp"
+#include "core/step/diagnostics.hpp"
 #include "tests/validation/run_scene.hpp"
 
 #include <catch2/catch.hpp>

@@ -4,7 +4,7 @@
 #include "tests/support/world.hpp"
 #include "tests/validation/run_scene.hpp"
 
-#include "core/region.hpp"
+#include "core/base/region.hpp"
 
 #include <algorithm>
 #include <cmath>

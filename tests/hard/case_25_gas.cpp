@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hard_case.hpp"
 
-#include "core/diagnostics.hpp"
-#include "core/region.hpp"
-#include "scenarios/build_scene.hpp"
+#include "core/base/region.hpp"
+#include "core/step/diagnostics.hpp"
+#include "scenarios/build/build_scene.hpp"
 #include "tests/support/contacts.hpp"
 
 #include <catch2/catch.hpp>

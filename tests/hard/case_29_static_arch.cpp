@@ -2,7 +2,7 @@
 #include "hard_case.hpp"
 #include "loaded_bed.hpp"
 
-#include "core/sub_steps.hpp"
+#include "core/step/sub_steps.hpp"
 #include "tests/validation/run_scene.hpp"
 
 #include <catch2/catch.hpp>

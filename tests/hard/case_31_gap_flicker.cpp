@@ -3,7 +3,7 @@
 
 #include "tests/support/world.hpp"
 
-#include "core/region.hpp"
+#include "core/base/region.hpp"
 
 #include <algorithm>
 #include <cmath>

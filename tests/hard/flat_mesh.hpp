@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/wall.hpp"
+#include "core/world/wall.hpp"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/world.hpp"
 
-#include "core/region.hpp"
+#include "core/base/region.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/contact_network.hpp"
+#include "core/candidates/contact_network.hpp"
 
 namespace talus::test
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model.hpp"
-#include "core/state.hpp"
+#include "core/world/model.hpp"
+#include "core/world/state.hpp"
 
 #include <Eigen/Dense>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/region.hpp"
 #include "core/multibody/problem.hpp"
-#include "core/region.hpp"
 
 namespace talus::test
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/region.hpp"
+#include "core/base/region.hpp"
 
 namespace talus::test
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/sensor.hpp"
+#include "core/sensors/sensor.hpp"
 
 namespace talus::test
 {

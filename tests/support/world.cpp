@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/world.hpp"
 
-#include "core/candidate_search.hpp"
-#include "core/sub_steps.hpp"
+#include "core/candidates/candidate_search.hpp"
+#include "core/step/sub_steps.hpp"
 
 #include "tests/support/contacts.hpp"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/contact_network.hpp"
-#include "core/diagnostics.hpp"
-#include "core/model.hpp"
-#include "core/placed_wall.hpp"
-#include "core/state.hpp"
-#include "core/time_step.hpp"
+#include "core/candidates/contact_network.hpp"
+#include "core/step/diagnostics.hpp"
+#include "core/step/time_step.hpp"
+#include "core/world/model.hpp"
+#include "core/world/placed_wall.hpp"
+#include "core/world/state.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_scene.hpp"
 
-#include "io/scene_file.hpp"
-#include "scenarios/build_scene.hpp"
+#include "io/scene/scene_file.hpp"
+#include "scenarios/build/build_scene.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Discharge through an orifice, against peers with smooth contacts and against Beverloo's law.
-#include "core/statistics.hpp"
+#include "core/base/statistics.hpp"
 #include "run_scene.hpp"
 
 #include <catch2/catch.hpp>

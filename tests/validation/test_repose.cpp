@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Angle of repose of the peers' pile, with their geometry and their fit.
-#include "core/statistics.hpp"
+#include "core/base/statistics.hpp"
 #include "run_scene.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sphere kernel against the note's general layer on steps of the supplied scenes.
-#include "core/gauss_seidel.hpp"
 #include "core/multibody/algorithm_3_1.hpp"
-#include "core/step_problem.hpp"
-#include "io/fclib_problem.hpp"
+#include "core/solver/gauss_seidel.hpp"
+#include "core/solver/step_problem.hpp"
+#include "io/problem/fclib_problem.hpp"
 #include "tests/support/contacts.hpp"
 #include "tests/validation/run_scene.hpp"
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/loop/open_scene.hpp"
+
+#include "io/text/input_error.hpp"
+#include "scenarios/build/build_scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace talus
+{
+
+namespace fs = std::filesystem;
+
+fs::path scene_path(const std::string& scene)
+{
+    if (fs::is_regular_file(scene)) return scene;
+    const fs::path supplied = fs::path(TALUS_SCENARIOS_FOLDER) / (scene + ".toml");
+    if (fs::is_regular_file(supplied)) return supplied;
+
+    std::vector<std::string> names;
+    for (const fs::path& path : supplied_scenes()) names.push_back(path.stem());
+    throw UsageError(
+        fmt::format("there is no scene '{}': it is neither a file nor one of {}", scene, fmt::join(names, ", ")));
+}
+
+SceneFile read_scene_as_asked(const fs::path& path, const CommandLine& line)
+{
+    SceneFile file = read_scene(path, line.overrides);
+    if (line.seed) file.scene.seed = *line.seed;
+    if (line.until) file.scene.time.duration = *line.until;
+    return file;
+}
+
+OpenedScene build_opened(SceneFile file, std::string name)
+{
+    try {
+        Simulation simulation = build_scene(file.scene);
+        return {std::move(name), std::move(file.scene), std::move(simulation)};
+    } catch (const SceneError& error) {
+        const std::string first =
+            error.first_key.empty() ? "" : fmt::format("; the first is at {}", file.place_of(error.first_key));
+        throw InputError(fmt::format("{}: {}{}", file.place_of(error.key), error.what(), first));
+    }
+}
+
+OpenedScene open_scene(const CommandLine& line)
+{
+    const fs::path path = scene_path(line.scene);
+    return build_opened(read_scene_as_asked(path, line), path.stem());
+}
+
+std::vector<fs::path> supplied_scenes()
+{
+    std::vector<fs::path> scenes;
+    for (const auto& entry : fs::directory_iterator(TALUS_SCENARIOS_FOLDER))
+        if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
+    std::sort(scenes.begin(), scenes.end());
+    return scenes;
+}
+
+} // namespace talus

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/command_line.hpp"
+#include "io/scene/scene_file.hpp"
+#include "scenarios/simulation.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+
+/// A scene that was read and built, ready to run.
+struct OpenedScene {
+    std::string name; ///< of the file, without folder and ending
+    scene::Scene scene;
+    Simulation simulation;
+};
+
+/// The file of a scene that is named as on the command line.
+/// @throws UsageError where there is no such scene
+std::filesystem::path scene_path(const std::string& scene);
+
+/// Finds, reads and builds the scene that the command line names, with what the command line changes in it.
+/// @throws InputError with file, line and column; UsageError where there is no such scene
+OpenedScene open_scene(const CommandLine& line);
+
+/// Reads a scene file with what the command line changes in it.
+/// @throws InputError with file, line and column
+SceneFile read_scene_as_asked(const std::filesystem::path& path, const CommandLine& line);
+
+/// Builds a scene that was read.
+/// @throws InputError with file, line and column
+OpenedScene build_opened(SceneFile file, std::string name);
+
+/// The scene files that come with Talus, by name.
+std::vector<std::filesystem::path> supplied_scenes();
+
+} // namespace talus

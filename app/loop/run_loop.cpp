@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/loop/run_loop.hpp"
+
+#include "app/system/signals.hpp"
+#include "app/system/terminal.hpp"
+#include "app/system/whereabouts.hpp"
+#include "io/run/checkpoint.hpp"
+#include "io/run/lost_spheres.hpp"
+#include "io/text/input_error.hpp"
+#include "scenarios/build/checks.hpp"
+
+namespace talus
+{
+namespace
+{
+
+/// Escapes, and presses, told one by one on standard error.
+constexpr std::size_t incidents_told = 5;
+
+std::vector<std::string> metrics_columns(const Simulation& simulation)
+{
+    std::vector<std::string> columns = {"time_s", "spheres", "inserted", "left", "contacts", "sweeps", "residual",
+        "worst_overlap_d", "mean_overlap_d", "kinetic_energy_J", "potential_energy_J", "contact_energy_J"};
+    for (const auto& sensor : simulation.sensors)
+        for (const Measurement& m : sensor->latest())
+            columns.push_back(column_name(fmt::format("{}_{}", sensor->name, m.name), m.unit));
+    return columns;
+}
+
+std::vector<bool> standing_walls(const Model& model, double time)
+{
+    std::vector<bool> standing;
+    for (const Wall& wall : model.walls) standing.push_back(wall.stands_at(time));
+    return standing;
+}
+
+} // namespace
+
+RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity)
+    : RunLoop(opened, folder, verbosity, nullptr)
+{
+}
+
+RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive& checkpoint)
+    : RunLoop(opened, folder, verbosity, &checkpoint)
+{
+}
+
+RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive* checkpoint)
+    : simulation_(opened.simulation), folder_(folder), origin_(origin_of(opened.name, opened.scene)),
+      policy_(opened.scene), wall_interval_(opened.scene.checkpoint.wall_interval), verbosity_(verbosity),
+      metrics_schedule_(opened.scene.time.metrics_interval), particle_schedule_(opened.scene.time.frame_interval),
+      contact_schedule_(opened.scene.output.contact_interval), checkpoint_schedule_(opened.scene.checkpoint.interval),
+      frames_(folder), watch_(opened.simulation.model), progress_(verbosity, opened.simulation)
+{
+    note_run(folder);
+    if (checkpoint)
+        go_on(*checkpoint);
+    else
+        begin();
+}
+
+void RunLoop::begin()
+{
+    metrics_.emplace(folder_ / "metrics.csv", metrics_columns(simulation_));
+    write_walls();
+    particle_schedule_.due(simulation_.state.time);
+    write_particles();
+    checkpoint_schedule_.due(simulation_.state.time);
+}
+
+void RunLoop::go_on(Archive& checkpoint)
+{
+    std::uint64_t metrics_size = 0;
+    persist(checkpoint, metrics_size);
+    if (!checkpoint.at_end()) throw ArchiveError("the saved state is longer than what this scene needs");
+    const double time = simulation_.state.time;
+    if (is_over())
+        throw InputError(fmt::format("{}: the run is at t = {:.6g} s already, and cannot end at {:.6g} s",
+            folder_.string(), time, simulation_.duration));
+    metrics_.emplace(folder_ / "metrics.csv", metrics_columns(simulation_), metrics_size);
+    progress_ = Progress(verbosity_, simulation_);
+    frames_.cut_back();
+    write_lost(folder_, simulation_.escaped);
+    standing_ = standing_walls(simulation_.model, time);
+    note_checkpoint(time);
+    for (Schedule* schedule : {&particle_schedule_, &checkpoint_schedule_}) schedule->due(time);
+    if (simulation_.state.steps == 0) return; // the first contacts and metrics are those of the first step
+    for (Schedule* schedule : {&metrics_schedule_, &contact_schedule_}) schedule->due(time);
+}
+
+RunEnd RunLoop::run()
+{
+    RunEnd end;
+    StepReport report;
+    while (!is_over() && !policy_.stops(report) && end.signal == 0) {
+        clear_away(report);
+        end.signal = stop_signal();
+        if (end.signal != 0 || next_step_is_last() || checkpoint_is_due()) write_checkpoint();
+        if (end.signal != 0) break;
+        report = make_step();
+        write_what_is_due(report);
+        tell(report);
+    }
+    if (end.signal == 0) write_the_rest(report);
+    if (policy_.stops(report)) end.incidents = report.incidents;
+    progress_.finish();
+    clock_.begin(RunPhase::output); // so that the phases add up to the whole
+    return end;
+}
+
+bool RunLoop::is_over() const
+{
+    return has_reached(simulation_, simulation_.duration);
+}
+
+bool RunLoop::next_step_is_last() const
+{
+    return has_reached(simulation_, simulation_.duration, 1);
+}
+
+/// What escaped, and need not end the run.
+void RunLoop::clear_away(const StepReport& report)
+{
+    if (report.incidents.empty()) return;
+    take_out_escaped(simulation_, report);
+    write_lost(folder_, simulation_.escaped);
+}
+
+StepReport RunLoop::make_step()
+{
+    note_step(simulation_.state.steps, simulation_.state.time);
+    clock_.begin(RunPhase::pour_and_outlet);
+    StepReport report = step(simulation_, [this](Phase phase) { clock_.begin(phase); });
+    clock_.begin(RunPhase::output);
+    statistics_.add(report, simulation_);
+    if (!policy_.stops(report))
+        for (const auto& sensor : simulation_.sensors) sensor->watch(snapshot(simulation_, report));
+    return report;
+}
+
+void RunLoop::tell(const StepReport& report)
+{
+    if (const std::string warning = watch_.warning_after(report, &simulation_); !warning.empty()) {
+        progress_.finish();
+        if (verbosity_ != Verbosity::quiet) warn("t = {:.6g} s: {}\n", simulation_.state.time, warning);
+    }
+    if (!policy_.stops(report)) tell_incidents(report);
+    progress_.update(simulation_, report, clock_.wall());
+}
+
+void RunLoop::tell_incidents(const StepReport& report)
+{
+    std::size_t escapes = simulation_.escaped.size();
+    for (const Incident& incident : report.incidents) {
+        const bool pressed = incident.kind == Incident::Kind::pressed;
+        const std::size_t told = pressed ? presses_told_++ : escapes++;
+        if (told > incidents_told) continue;
+        progress_.finish();
+        if (told == incidents_told)
+            warn("further {}\n", pressed ? "presses are not told" : "escapes are told by the ledger and lost.vtp only");
+        else
+            warn("t = {:.6g} s: {}; {}\n", simulation_.state.time,
+                describe(incident, names_of(simulation_.model.walls)), pressed ? "they yield" : "it is taken out");
+    }
+}
+
+bool RunLoop::checkpoint_is_due()
+{
+    // each is asked, so that one does not come again for what the other has brought
+    const bool by_signal = checkpoint_requested();
+    const bool by_schedule = simulation_.state.steps > 0 && checkpoint_schedule_.due(simulation_.state.time);
+    const bool by_wall = clock_.wall() - checkpoint_wall_ >= wall_interval_;
+    return by_signal || by_schedule || by_wall;
+}
+
+void RunLoop::write_checkpoint()
+{
+    clock_.begin(RunPhase::output);
+    metrics_->sync();
+    std::uint64_t metrics_size = metrics_->size();
+    Archive archive;
+    archive(origin_);
+    persist(archive, metrics_size);
+    talus::write_checkpoint(folder_, TALUS_VERSION, archive.bytes());
+    note_checkpoint(simulation_.state.time);
+    checkpoint_wall_ = clock_.wall();
+    if (verbosity_ != Verbosity::verbose) return;
+    progress_.finish();
+    warn("checkpoint at t = {:.6g} s: {:.1f} MB\n", simulation_.state.time,
+        1e-6 * static_cast<double>(archive.bytes().size()));
+}
+
+/// The clock comes last: of the state it is all that differs from run to run.
+void RunLoop::persist(Archive& archive, std::uint64_t& metrics_size)
+{
+    archive(simulation_, frames_, metrics_size, statistics_, clock_);
+}
+
+void RunLoop::write_what_is_due(const StepReport& report)
+{
+    if (policy_.stops(report)) return; // the end of the run writes it all, but asks no sensor about a broken state
+    const double time = simulation_.state.time;
+    if (standing_walls(simulation_.model, time) != standing_) write_walls();
+    if (metrics_schedule_.due(time)) {
+        sample_sensors(report);
+        write_metrics(report);
+    }
+    if (contact_schedule_.due(time)) write_contacts();
+    if (particle_schedule_.due(time)) {
+        write_particles();
+        progress_.frame_written(simulation_, report, clock_.wall());
+    }
+}
+
+void RunLoop::write_the_rest(const StepReport& report)
+{
+    const std::int64_t steps = simulation_.state.steps;
+    if (last_particles_ != steps) write_particles();
+    if (steps == 0) return; // contacts and metrics speak of a step
+    if (last_contacts_ != steps && !policy_.stops(report)) write_contacts();
+    if (last_metrics_ != steps) {
+        if (!policy_.stops(report)) sample_sensors(report);
+        write_metrics(report);
+    }
+    write_tables();
+}
+
+void RunLoop::sample_sensors(const StepReport& report)
+{
+    clock_.begin(RunPhase::sensors);
+    for (const auto& sensor : simulation_.sensors) sensor->sample(snapshot(simulation_, report));
+    clock_.begin(RunPhase::output);
+}
+
+void RunLoop::write_metrics(const StepReport& report)
+{
+    const State& state = simulation_.state;
+    const double d = simulation_.model.mean_diameter;
+    std::vector<double> row = {state.time, static_cast<double>(state.count()), static_cast<double>(state.next_id),
+        static_cast<double>(simulation_.outflow.count), static_cast<double>(report.contacts),
+        static_cast<double>(report.sweeps), report.residual, report.worst_overlap / d, report.mean_overlap / d,
+        report.kinetic_energy, report.potential_energy, report.contact_energy};
+    for (const auto& sensor : simulation_.sensors)
+        for (const Measurement& m : sensor->latest()) row.push_back(m.value);
+    metrics_->add_row(row);
+    last_metrics_ = state.steps;
+}
+
+void RunLoop::write_tables()
+{
+    for (const auto& sensor : simulation_.sensors)
+        if (const auto table = sensor->table()) write_table(folder_, sensor->name, *table);
+}
+
+void RunLoop::write_particles()
+{
+    frames_.write_particles(simulation_);
+    const ModelledPhysics& physics = simulation_.model.physics;
+    if (physics.moving_walls || physics.pistons) frames_.write_moving_walls(simulation_.model, simulation_.state);
+    last_particles_ = simulation_.state.steps;
+}
+
+void RunLoop::write_contacts()
+{
+    frames_.write_contacts(simulation_);
+    last_contacts_ = simulation_.state.steps;
+}
+
+void RunLoop::write_walls()
+{
+    frames_.write_walls(simulation_.model, simulation_.state);
+    standing_ = standing_walls(simulation_.model, simulation_.state.time);
+}
+
+} // namespace talus

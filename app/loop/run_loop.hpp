@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/loop/incident_policy.hpp"
+#include "app/loop/open_scene.hpp"
+#include "app/loop/progress.hpp"
+#include "app/loop/run_origin.hpp"
+#include "app/loop/run_statistics.hpp"
+#include "app/loop/schedule.hpp"
+#include "app/loop/step_watch.hpp"
+#include "app/system/phase_clock.hpp"
+#include "io/run/frames.hpp"
+#include "io/run/run_files.hpp"
+#include "scenarios/scene.hpp"
+#include "scenarios/simulation.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace talus
+{
+
+/// How a run ended: at its time, by an incident, or by a signal.
+struct RunEnd {
+    std::vector<Incident> incidents; ///< none where all went well
+    int signal = 0;                  ///< that stopped it before its end, after a checkpoint; 0: none
+};
+
+/// Steps a simulation to its end and writes what its scene asks for on the way.
+///
+/// Frames and rows of metrics.csv are written at the first step at or after their due time. The first frames show the
+/// start and the last ones the end, be it the scene's or the step of an incident. The last checkpoint is that before
+/// the last step: from there a run can be closed anew or go on, without the frames that are there only because it
+/// ended.
+class RunLoop
+{
+public:
+    /// A run from its beginning.
+    /// @param folder the output folder, which exists
+    /// @throws OutputError
+    RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity);
+
+    /// A run from its checkpoint, which is put back into the simulation; what was written after it is taken away.
+    /// @param checkpoint what a RunLoop stored
+    /// @throws ArchiveError, InputError before anything is changed in the folder; OutputError
+    RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive& checkpoint);
+
+    /// Runs to the end, to the first step with incidents that stop it, or until a signal asks it to stop.
+    /// @throws OutputError
+    RunEnd run();
+
+    const RunStatistics& statistics() const { return statistics_; }
+    const PhaseClock& clock() const { return clock_; }
+
+private:
+    RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive* checkpoint);
+    void begin();
+    void go_on(Archive& checkpoint);
+
+    bool is_over() const;
+    bool next_step_is_last() const;
+    void clear_away(const StepReport& report);
+    StepReport make_step();
+    void write_what_is_due(const StepReport& report);
+    void write_the_rest(const StepReport& report);
+    void tell(const StepReport& report);
+    void tell_incidents(const StepReport& report);
+
+    bool checkpoint_is_due();
+    void write_checkpoint();
+    void persist(Archive& archive, std::uint64_t& metrics_size);
+
+    void sample_sensors(const StepReport& report);
+    void write_metrics(const StepReport& report);
+    void write_tables();
+    void write_particles();
+    void write_contacts();
+    void write_walls();
+
+    Simulation& simulation_;
+    std::filesystem::path folder_;
+    RunOrigin origin_;
+    IncidentPolicy policy_;
+    double wall_interval_; ///< between checkpoints [s]
+    Verbosity verbosity_;
+    Schedule metrics_schedule_, particle_schedule_, contact_schedule_, checkpoint_schedule_;
+    double checkpoint_wall_ = 0.0;                                              ///< when the last was written [s]
+    std::int64_t last_metrics_ = -1, last_particles_ = -1, last_contacts_ = -1; ///< steps after which they were written
+    std::vector<bool> standing_;                                                ///< walls in the last wall frame
+    FrameWriter frames_;
+    std::optional<MetricsFile> metrics_; ///< there as soon as the loop is made
+    StepWatch watch_;
+    std::size_t presses_told_ = 0;
+    RunStatistics statistics_;
+    PhaseClock clock_;
+    Progress progress_;
+};
+
+} // namespace talus

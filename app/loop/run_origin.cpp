@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/loop/run_origin.hpp"
+
+#include "io/scene/scene_files.hpp"
+#include "io/text/input_error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace talus
+{
+namespace
+{
+
+/// What says how long a run is and what is written of it, but not where the spheres go from one step to the next; and
+/// how exactly they go. A name in brackets stands for all keys of its table.
+constexpr std::array<std::string_view, 10> changeable = {"title", "time.duration", "time.frame_interval",
+    "time.metrics_interval", "[output]", "[checkpoint]", "solver.tolerance", "solver.max_sweeps",
+    "solver.on_no_solution", "world.on_escape"};
+
+bool may_change(std::string_view key)
+{
+    const std::string table = fmt::format("[{}]", key.substr(0, key.find('.')));
+    return std::ranges::any_of(changeable, [&](std::string_view one) { return one == key || one == table; });
+}
+
+} // namespace
+
+RunOrigin origin_of(const std::string& scene_name, const scene::Scene& scene)
+{
+    return {scene_name, resolved_scene(scene), input_files(scene)};
+}
+
+void refuse_other_scene(const SceneFile& file, const RunOrigin& origin)
+{
+    for (const std::string& key : changed_keys(parse_scene(origin.scene), file.scene))
+        if (!may_change(key))
+            throw InputError(fmt::format("{}: '{}' may not change when a run is resumed; what may is {}",
+                file.place_of(key), key, fmt::join(changeable, ", ")));
+    for (const auto& one : input_files(file.scene))
+        if (std::ranges::find(origin.files, one) == origin.files.end())
+            throw InputError(fmt::format(
+                "{}: the file has changed since the run began; it goes on only with the old one", one.first));
+}
+
+} // namespace talus

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/archive.hpp"
+#include "io/scene/scene_file.hpp"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace talus
+{
+
+/// The run that a checkpoint belongs to: what of it must not change, or the state would not fit.
+struct RunOrigin {
+    std::string scene_name;
+    std::string scene;                                        ///< resolved, as TOML
+    std::vector<std::pair<std::string, std::uint32_t>> files; ///< that it names, and their checksums
+
+    void persist(Archive& archive) { archive(scene_name, scene, files); }
+};
+
+RunOrigin origin_of(const std::string& scene_name, const scene::Scene& scene);
+
+/// Refuses a scene that differs from that of the checkpoint in more than a resumed run may change.
+/// @throws InputError with the key and what may change, or with the file that is another one now
+void refuse_other_scene(const SceneFile& file, const RunOrigin& origin);
+
+} // namespace talus

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/loop/run_report.hpp"
+
+#include "app/system/terminal.hpp"
+#include "scenarios/build/checks.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+namespace
+{
+
+ParticleLedger particle_ledger(const Simulation& simulation, const std::vector<Incident>& incidents)
+{
+    ParticleLedger ledger;
+    ledger.inserted = simulation.state.next_id;
+    ledger.left = simulation.outflow.count;
+    const auto still_listed = std::count_if(incidents.begin(), incidents.end(),
+        [](const Incident& incident) { return incident.kind == Incident::Kind::escaped && !incident.of_piston(); });
+    ledger.escaped = static_cast<std::int64_t>(simulation.escaped.size()) + still_listed;
+    ledger.inside = static_cast<std::int64_t>(simulation.state.count()) - still_listed;
+    return ledger;
+}
+
+std::string shortfall_of(const Pour& pour, double time, const Materials& materials)
+{
+    if (is_over(pour)) return "";
+    if (!is_behind(pour, time, materials)) return "the run ended before the rest was due";
+    return fmt::format("its region was full: {} times there was no free place", pour.refused);
+}
+
+std::vector<PourSummary> summarise_pours(const Simulation& simulation)
+{
+    std::vector<PourSummary> pours;
+    for (const Pour& pour : simulation.pours) {
+        PourSummary summary;
+        summary.name = pour.name;
+        summary.poured = pour.poured;
+        summary.poured_mass = pour.poured_mass;
+        if (std::isfinite(pour.mass))
+            summary.asked_mass = pour.mass;
+        else
+            summary.asked = pour.count;
+        summary.shortfall = shortfall_of(pour, simulation.state.time, simulation.model.materials);
+        pours.push_back(summary);
+    }
+    return pours;
+}
+
+TimingSummary summarise_timing(const RunLoop& loop)
+{
+    TimingSummary timing;
+    timing.phases = loop.clock().phases();
+    for (const PhaseTime& phase : timing.phases) {
+        timing.wall += phase.wall;
+        timing.cpu += phase.cpu;
+    }
+    timing.contact_updates = loop.statistics().contact_updates();
+    timing.contact_update_rate = timing.contact_updates / timing.phases[static_cast<std::size_t>(RunPhase::sweeps)].cpu;
+    return timing;
+}
+
+void print_sensors(const RunSummary& summary)
+{
+    for (const SensorSummary& sensor : summary.sensors)
+        for (const Measurement& m : sensor.results)
+            say("  {:<28} {:.5g} ± {:.2g} {}\n", fmt::format("{} {}", sensor.name, m.name), m.value, m.spread, m.unit);
+}
+
+/// "20 of 30 spheres", "0.2 of 0.3 kg".
+std::string poured_of_asked(const PourSummary& pour)
+{
+    if (pour.asked_mass) return fmt::format("{:.4g} of {:.4g} kg", pour.poured_mass, *pour.asked_mass);
+    return fmt::format("{} of {} spheres", pour.poured, pour.asked.value_or(0));
+}
+
+void print_ledger(const RunSummary& summary)
+{
+    const ParticleLedger& ledger = summary.ledger;
+    say("  {:<28} {} inserted = {} inside + {} left through an outlet + {} escaped ({})\n", "spheres", ledger.inserted,
+        ledger.inside, ledger.left, ledger.escaped, ledger.closes() ? "closes" : "DOES NOT CLOSE: spheres were lost");
+    for (const PourSummary& pour : summary.pours)
+        if (!pour.shortfall.empty())
+            say("  {:<28} {} came in: {}\n", fmt::format("pour {}", pour.name), poured_of_asked(pour), pour.shortfall);
+}
+
+void print_error(const RunSummary& summary)
+{
+    const ErrorSummary& e = summary.error;
+    const double steps = static_cast<double>(std::max<std::int64_t>(1, summary.steps));
+    say("  {:<28} mean {:.2g}, 95 % of the steps below {:.2g}, worst {:.2g} (tolerance {:.2g})\n", "residual reached",
+        e.mean_residual, e.residual_95, e.worst_residual, e.tolerance);
+    say("  {:<28} {} of {} ({:.2g} %)\n", "steps at the cap of sweeps", e.steps_at_cap, summary.steps,
+        100.0 * static_cast<double>(e.steps_at_cap) / steps);
+    say("  {:<28} mean {:.2g} % d, worst {:.2g} % d at {:.4g} s\n", "overlap", 100.0 * e.mean_overlap,
+        100.0 * e.worst_overlap, e.worst_overlap_time);
+    say("  {:<28} {}\n", "moves over 0.1 d in a step", e.long_moves);
+    if (e.split_steps > 0)
+        say("  {:<28} {} of {}, up to {} sub-steps each\n", "steps split for fast spheres", e.split_steps,
+            summary.steps, e.most_sub_steps);
+    say("  {:<28} {:.2g} N s\n", "worst cone violation", e.cone_violation);
+    const std::string put_in =
+        e.energy_put_in == 0.0
+            ? ""
+            : fmt::format("; {:.4g} J put in by moving walls, loads or gravity along periodic axes", e.energy_put_in);
+    say("  {:<28} {:.4g} J lost, {:.2g} J gained that nothing put in{}\n", "energy", e.energy_lost, e.energy_gained,
+        put_in);
+}
+
+void print_timing(const RunSummary& summary)
+{
+    const TimingSummary& timing = summary.timing;
+    for (const PhaseTime& phase : timing.phases)
+        say("  {:<28} {:>9.2f} s wall {:>9.2f} s CPU {:>6.1f} %\n", phase.name, phase.wall, phase.cpu,
+            100.0 * phase.cpu / timing.cpu);
+    say("  {:<28} {:>9.2f} s wall {:>9.2f} s CPU, threads: {}\n", "in all", timing.wall, timing.cpu, summary.threads);
+    if (summary.steps == 0) return;
+    say("  {:<28} {:.3g} s CPU for a simulated second, {:.0f} steps/s, {:.3g} million contact updates/s of "
+        "sweep CPU\n",
+        "rate", timing.cpu / summary.simulated_time, static_cast<double>(summary.steps) / timing.wall,
+        1e-6 * timing.contact_update_rate);
+}
+
+} // namespace
+
+RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const RunEnd& end)
+{
+    const Simulation& simulation = opened.simulation;
+    RunSummary summary;
+    summary.incidents = end.incidents;
+    summary.interrupted = end.signal != 0;
+    summary.wall_names = names_of(simulation.model.walls);
+    summary.version = TALUS_VERSION;
+    summary.scene = opened.name;
+    summary.title = opened.scene.title;
+    summary.seed = opened.scene.seed;
+    summary.threads = omp_get_max_threads();
+    summary.simulated_time = simulation.state.time;
+    summary.time_step = simulation.model.time_step;
+    summary.steps = simulation.state.steps;
+    summary.ledger = particle_ledger(simulation, end.incidents);
+    summary.pours = summarise_pours(simulation);
+    for (const auto& sensor : simulation.sensors) summary.sensors.push_back({sensor->name, sensor->results()});
+    summary.error = loop.statistics().error(simulation.model);
+    summary.timing = summarise_timing(loop);
+    return summary;
+}
+
+void print_results(const RunSummary& summary)
+{
+    say("\n{} {} at t = {:.6g} s after {} steps of {:.4g} s\n", summary.scene,
+        !summary.incidents.empty() ? "FAILED"
+        : summary.interrupted      ? "interrupted"
+                                   : "done",
+        summary.simulated_time, summary.steps, summary.time_step);
+    say("results\n");
+    print_sensors(summary);
+    print_ledger(summary);
+    say("error of the run\n");
+    print_error(summary);
+    say("time\n");
+    print_timing(summary);
+    std::fflush(stdout); // before what follows on standard error
+}
+
+} // namespace talus

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/system/signals.hpp"
+
+#include "app/system/whereabouts.hpp"
+
+#include <csignal>
+#include <unistd.h>
+
+namespace talus
+{
+namespace
+{
+
+// All that a handler may touch.
+volatile std::sig_atomic_t stop = 0;
+volatile std::sig_atomic_t checkpoint = 0;
+
+extern "C" void handle_stop(int signal)
+{
+    if (stop != 0) {
+        ShortText text;
+        text << "stopped at once by a second signal";
+        say_last_words(text);
+        _exit(128 + signal);
+    }
+    stop = signal;
+}
+
+extern "C" void handle_checkpoint(int)
+{
+    checkpoint = 1;
+}
+
+void set_handler(int signal, void (*handler)(int))
+{
+    struct sigaction action = {};
+    action.sa_handler = handler;
+    action.sa_flags = SA_RESTART; // a file that is being written is none of the signal's business
+    sigemptyset(&action.sa_mask);
+    sigaction(signal, &action, nullptr);
+}
+
+} // namespace
+
+void catch_signals()
+{
+    set_handler(SIGINT, handle_stop);
+    set_handler(SIGTERM, handle_stop);
+    set_handler(SIGUSR1, handle_checkpoint);
+}
+
+int stop_signal()
+{
+    return stop;
+}
+
+bool checkpoint_requested()
+{
+    const bool requested = checkpoint != 0;
+    checkpoint = 0;
+    return requested;
+}
+
+} // namespace talus

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/loop/open_scene.hpp"
+
+namespace talus
+{
+
+/// Prints what the scene holds and what a run of it needs: counts, step, model, memory and disk, overlaps at the start.
+void print_scene(const OpenedScene& opened, const OverlapCheck& overlaps);
+
+/// Prints that, and after it the scene with every key written out.
+void check_scene(const OpenedScene& opened);
+
+/// Prints where the step comes from, what is modelled, which overlap to expect, and which overlaps there are already.
+void print_explanations(const Simulation& simulation, const OverlapCheck& overlaps);
+
+/// Prints name and title of every scene that comes with Talus.
+void list_scenes();
+
+} // namespace talus

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/periodicity.hpp"
+#include "core/base/vector.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace talus
+{
+
+/// Two indices, a < b.
+struct IndexPair {
+    std::int32_t a = 0;
+    std::int32_t b = 0;
+    auto operator<=>(const IndexPair&) const = default;
+};
+
+/// All pairs of boxes that meet, touching included, across periodic borders too, each once and in no particular order
+/// (CGAL's box intersection, sequential).
+std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes, const Periodicity& periodicity = {});
+
+/// The same, but only the pairs with at least one member in `movers`, whose entries differ.
+std::vector<IndexPair> find_box_pairs(
+    const std::vector<Box>& boxes, const std::vector<std::int32_t>& movers, const Periodicity& periodicity = {});
+
+/// The same as the first by trying every pair: the oracle of the tests.
+std::vector<IndexPair> find_box_pairs_brute_force(const std::vector<Box>& boxes, const Periodicity& periodicity = {});
+
+} // namespace talus

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contacts/assembly.hpp"
+
+#include "core/candidates/candidate_search.hpp"
+#include "core/contacts/law.hpp"
+#include "core/contacts/press_count.hpp"
+#include "core/contacts/wall_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+namespace
+{
+
+/// Numbers that all contacts of a step share.
+struct StepConstants {
+    double h;
+    double reach;           ///< of open contacts [m]
+    double threshold_speed; ///< slowest impact [m/s]
+
+    explicit StepConstants(const Model& model)
+        : h(model.time_step), reach(open_contact_reach * model.min_diameter),
+          threshold_speed(
+              model.solver.restitution_threshold * model.gravity.norm() * model.time_step * model.solver.sub_steps)
+    {
+    }
+};
+
+/// Geometry and motion of a contact, as detection found them.
+struct Touch {
+    std::int32_t a, b;
+    Vec3 normal;
+    double gap;
+    double u_n;       ///< of v⁽⁰⁾ [m/s]
+    double u_n_ahead; ///< of v⁽¹⁾ [m/s]
+    double u_n_before; ///< of v⁽⁰⁾ against the velocity that the wall had then: 0 where a sphere goes with it [m/s]
+    double arm_scale;           ///< s
+    double inverse_mass_sum;    ///< W
+    double rolling_radius;      ///< R*
+    double inverse_inertia_sum; ///< 1/I_a + 1/I_b [1/(kg m²)]
+    std::uint32_t slot;
+    WallRow wall = {}; ///< at walls that move
+};
+
+bool within_reach(double gap, double u_n_ahead, const StepConstants& step)
+{
+    return gap <= step.reach || gap + closing_horizon * step.h * u_n_ahead <= 0.0;
+}
+
+double inverse_inertia(const Motion& m)
+{
+    return inverse_inertia_factor * m.inverse_mass / (m.radius * m.radius);
+}
+
+/// The impulse carried into a contact: turned into the new frame and cut back to the cone, nothing for an impact.
+Vec3 warm_impulse(const Vec3& carried, const Vec3& normal, double friction)
+{
+    const double normal_impulse = std::max(0.0, carried.dot(normal));
+    Vec3 tangent = carried - carried.dot(normal) * normal;
+    const double largest = friction * normal_impulse;
+    const double size = tangent.norm();
+    if (size > largest) tangent *= largest / size;
+    return normal_impulse * normal + tangent;
+}
+
+/// Writes contacts of one tile into their arrays.
+class TileAssembly
+{
+public:
+    TileAssembly(ContactArrays& arrays, const CarriedImpulses& carried, std::size_t first, const Model& model,
+        const StepConstants& step)
+        : arrays_(arrays), carried_(carried), first_(first), next_(first), model_(model), step_(step),
+          inertia_factor_(model.physics.spin ? inverse_inertia_factor : 0.0)
+    {
+    }
+
+    void add(const Touch& touch, const ContactLaw& law, double wall_level)
+    {
+        const std::uint8_t touched = carried_.touched[touch.slot];
+        const auto kind =
+            contact_kind(touch.gap, touch.u_n, touch.u_n_ahead, touched > 0, law, step_.h, step_.threshold_speed);
+        const Vec3 warm = kind == ContactKind::impact
+                              ? Vec3::Zero().eval()
+                              : warm_impulse(carried_.impulse[touch.slot], touch.normal, law.friction);
+        const double w = touch.inverse_mass_sum;
+        const double u_n = kind == ContactKind::impact ? touch.u_n : touch.u_n_before;
+        const auto normal = normal_law({kind, touch.gap, u_n, w, warm.dot(touch.normal), is_beyond_solution(touched)},
+            law, model_.solver, step_.h);
+
+        arrays_.contact[next_] = {touch.a, touch.b, touch.normal, normal.target, warm};
+        arrays_.terms[next_] = {touch.arm_scale, law.friction, normal.compliance, 1.0 / (w + normal.compliance),
+            1.0 / (w * (1.0 + inertia_factor_ * touch.arm_scale * touch.arm_scale)), w};
+        arrays_.geometry[next_] = {touch.gap, wall_level, touch.slot, kind};
+        if (!arrays_.wall.empty()) arrays_.wall[next_] = touch.wall;
+        if (!arrays_.rolling.empty()) arrays_.rolling[next_] = rolling_row(touch, law, kind, warm.dot(touch.normal));
+        ++next_;
+        survey(touch.gap, normal);
+    }
+
+    void finish(std::size_t tile) { arrays_.count[tile] = static_cast<std::uint32_t>(next_ - first_); }
+    const ContactSurvey& result() const { return survey_; }
+
+private:
+    RollingRow rolling_row(const Touch& touch, const ContactLaw& law, ContactKind kind, double warm_normal) const
+    {
+        RollingRow row{Vec3::Zero(), law.rolling_friction * touch.rolling_radius, 1.0 / touch.inverse_inertia_sum};
+        if (kind == ContactKind::impact) return row;
+        const Vec3& carried = carried_.rolling_impulse[touch.slot];
+        row.impulse = carried - carried.dot(touch.normal) * touch.normal;
+        const double largest = row.reach * warm_normal;
+        const double size = row.impulse.norm();
+        if (size > largest) row.impulse *= largest / size;
+        return row;
+    }
+
+    void survey(double gap, const NormalLaw& law)
+    {
+        ++survey_.contacts;
+        if (gap >= 0.0) return;
+        ++survey_.overlapping;
+        survey_.worst_overlap = std::max(survey_.worst_overlap, -gap);
+        survey_.overlap_sum -= gap;
+        // k = 4 Υ / (Σ_n h²), the stiffness that the compliance stands for.
+        if (law.compliance > 0.0 && model_.solver.stabilisation == Stabilisation::matched)
+            survey_.contact_energy +=
+                2.0 * upsilon / (law.compliance * step_.h * step_.h) * gap * gap * law.feedback_share;
+    }
+
+    ContactArrays& arrays_;
+    const CarriedImpulses& carried_;
+    std::size_t first_, next_;
+    const Model& model_;
+    const StepConstants& step_;
+    double inertia_factor_; ///< 0 where spheres do not turn
+    ContactSurvey survey_;
+};
+
+/// @param periodic whether there is a border to reach across
+template <bool periodic>
+ContactSurvey assemble_sphere_contacts(
+    ContactNetwork& network, std::size_t tile, const State& state, const Model& model, const StepConstants& step)
+{
+    TileAssembly assembly(network.sphere_contacts, network.pair_carried, network.pairs_of_tile[tile], model, step);
+    for (auto k = network.pairs_of_tile[tile]; k < network.pairs_of_tile[tile + 1]; ++k) {
+        const auto [a, b] = network.pairs[k];
+        const Motion& ma = state.motion[a];
+        const Motion& mb = state.motion[b];
+        Vec3 across = state.position[a] - state.position[b];
+        if constexpr (periodic) across = model.periodicity.nearest_image(across);
+        const double radii = ma.radius + mb.radius;
+        const double closing = across.dot(ma.velocity - mb.velocity);
+        if (closing >= 0.0 && across.squaredNorm() > (radii + step.reach) * (radii + step.reach)) {
+            network.pair_carried.clear(k);
+            continue;
+        }
+        const double distance = across.norm();
+        // Spheres with one centre are pushed apart along a fixed direction: any will do, but always the same.
+        const Vec3 normal = distance > 0.0 ? Vec3(across / distance) : Vec3::UnitZ();
+        const double u_n = normal.dot(ma.velocity - mb.velocity);
+        if (!within_reach(distance - radii, u_n, step)) {
+            network.pair_carried.clear(k);
+            continue;
+        }
+        assembly.add({.a = a,
+                         .b = b,
+                         .normal = normal,
+                         .gap = distance - radii,
+                         .u_n = u_n,
+                         .u_n_ahead = u_n, // gravity is the same for both
+                         .u_n_before = u_n,
+                         .arm_scale = distance / radii,
+                         .inverse_mass_sum = ma.inverse_mass + mb.inverse_mass,
+                         .rolling_radius = ma.radius * mb.radius / radii,
+                         .inverse_inertia_sum = model.physics.rolling ? inverse_inertia(ma) + inverse_inertia(mb) : 0.0,
+                         .slot = k},
+            model.materials.between(state.material[a], state.material[b]), 0.0);
+    }
+    assembly.finish(tile);
+    return assembly.result();
+}
+
+/// Finds the contacts of wall pairs and hands them to an assembly.
+class WallDetection
+{
+public:
+    WallDetection(ContactNetwork& network, const State& state, const Model& model, const std::vector<PlacedWall>& walls,
+        const StepConstants& step)
+        : network_(network), state_(state), model_(model), walls_(walls), step_(step)
+    {
+    }
+
+    /// The contacts of one pair. Calls note(point, shift) for each that is added: where the wall is touched, seen from
+    /// the image of the sphere that is shifted so.
+    template <class Note> void add_contacts(WallPair& pair, TileAssembly& assembly, Note&& note)
+    {
+        const PlacedWall& wall = walls_[pair.wall];
+        // The image of the sphere for which the patches are listed.
+        const Vec3& x = state_.position[pair.sphere];
+        const Vec3 shift = model_.periodicity.shift_towards(x, network_.listed_box[pair.sphere].center());
+        find_points(pair, wall, x + shift);
+        match_carried(network_, pair, points_);
+        for (std::size_t k = 0; k < points_.size(); ++k) {
+            add(pair, wall, points_[k], pair.first + static_cast<std::uint32_t>(k), x + shift, assembly);
+            note(points_[k], shift);
+        }
+    }
+
+private:
+    ContactNetwork& network_;
+    const State& state_;
+    const Model& model_;
+    const std::vector<PlacedWall>& walls_;
+    const StepConstants& step_;
+    std::vector<WallPoint> points_;
+
+    /// @param x the sphere's centre
+    static WallRow wall_row(const PlacedWall& wall, const WallPoint& at, const Vec3& x, double radius)
+    {
+        if (!wall.moves()) return {};
+        return {wall.velocity(static_cast<std::size_t>(at.patch), x - radius * at.normal), wall.spin()};
+    }
+
+    static Vec3 velocity_before(const PlacedWall& wall, const WallPoint& at, const Vec3& x, double radius)
+    {
+        if (!wall.moves()) return Vec3::Zero();
+        return wall.velocity_before(static_cast<std::size_t>(at.patch), x - radius * at.normal);
+    }
+
+    void find_points(const WallPair& pair, const PlacedWall& wall, const Vec3& x)
+    {
+        points_.clear();
+        if (!wall.stands()) return;
+        const Motion& m = state_.motion[pair.sphere];
+        const Vec3 ahead = m.velocity + step_.h * model_.gravity;
+        const double wall_speed = wall.moves() ? wall.fastest(Box{x, x}.grown(m.radius)) : 0.0;
+        const double reach = std::max(step_.reach, closing_horizon * step_.h * (ahead.norm() + wall_speed));
+        find_wall_points(wall, network_.patches.data() + pair.first, pair.patches, x, m.radius + reach, points_);
+        std::erase_if(points_, [&](const WallPoint& at) {
+            const Vec3 wall_ahead = wall_row(wall, at, x, m.radius).velocity + wall.gain();
+            return !within_reach(at.distance - m.radius, at.normal.dot(ahead - wall_ahead), step_);
+        });
+    }
+
+    void add(const WallPair& pair, const PlacedWall& wall, const WallPoint& at, std::uint32_t slot, const Vec3& x,
+        TileAssembly& assembly)
+    {
+        const Motion& m = state_.motion[pair.sphere];
+        const Vec3& n = at.normal;
+        const double gap = at.distance - m.radius;
+        const WallRow row = wall_row(wall, at, x, m.radius);
+        const double u_n = n.dot(m.velocity - row.velocity);
+        assembly.add({.a = pair.sphere,
+                         .b = pair.wall,
+                         .normal = n,
+                         .gap = gap,
+                         .u_n = u_n,
+                         .u_n_ahead = u_n + step_.h * n.dot(model_.gravity) - n.dot(wall.gain()),
+                         .u_n_before = n.dot(m.velocity - velocity_before(wall, at, x, m.radius)),
+                         .arm_scale = 1.0,
+                         .inverse_mass_sum = m.inverse_mass + inverse_mass(wall),
+                         .rolling_radius = m.radius,
+                         .inverse_inertia_sum = inverse_inertia(m),
+                         .slot = slot,
+                         .wall = row},
+            model_.materials.between(state_.material[pair.sphere], wall.wall().material),
+            n.dot(state_.position[pair.sphere]) - gap + way_ahead(wall, n, row));
+    }
+
+    double inverse_mass(const PlacedWall& wall) const
+    {
+        return wall.is_piston() ? 1.0 / model_.pistons[wall.wall().piston].mass : 0.0;
+    }
+
+    /// By how much the wall's level rises in the step, where that is known beforehand [m].
+    double way_ahead(const PlacedWall& wall, const Vec3& normal, const WallRow& row) const
+    {
+        return wall.is_piston() ? 0.0 : step_.h * normal.dot(row.velocity);
+    }
+};
+
+ContactSurvey assemble_wall_contacts(ContactNetwork& network, std::size_t tile, const State& state, const Model& model,
+    const std::vector<PlacedWall>& walls, const StepConstants& step)
+{
+    TileAssembly assembly(network.wall_contacts, network.wall_carried, network.wall_slots_of_tile[tile], model, step);
+    WallDetection detection(network, state, model, walls, step);
+    for (auto p = network.wall_pairs_of_tile[tile]; p < network.wall_pairs_of_tile[tile + 1]; ++p) {
+        auto& pair = network.wall_pairs[p];
+        if (!walls[pair.wall].is_piston()) detection.add_contacts(pair, assembly, [](const WallPoint&, const Vec3&) {});
+    }
+    assembly.finish(tile);
+    return assembly.result();
+}
+
+/// The contacts with all pistons, in the order of the wall pairs.
+ContactSurvey assemble_piston_contacts(ContactNetwork& network, const State& state, const Model& model,
+    const std::vector<PlacedWall>& walls, const StepConstants& step)
+{
+    TileAssembly assembly(network.piston_contacts, network.wall_carried, 0, model, step);
+    WallDetection detection(network, state, model, walls, step);
+    std::size_t contacts = 0;
+    for (auto& pair : network.wall_pairs) {
+        const PlacedWall& wall = walls[pair.wall];
+        if (!wall.is_piston()) continue;
+        const Vec3 center = wall.pose()(model.pistons[wall.wall().piston].center);
+        detection.add_contacts(pair, assembly, [&](const WallPoint& at, const Vec3& shift) {
+            const Vec3 place = state.position[pair.sphere] + shift - state.radius(pair.sphere) * at.normal;
+            network.piston_arms[contacts++] = place - wall.image_of(static_cast<std::size_t>(at.patch)) - center;
+        });
+    }
+    assembly.finish(0);
+    return assembly.result();
+}
+
+} // namespace
+
+ContactSurvey& ContactSurvey::operator+=(const ContactSurvey& other)
+{
+    contacts += other.contacts;
+    overlapping += other.overlapping;
+    worst_overlap = std::max(worst_overlap, other.worst_overlap);
+    overlap_sum += other.overlap_sum;
+    contact_energy += other.contact_energy;
+    return *this;
+}
+
+ContactSurvey assemble_contacts(
+    ContactNetwork& network, const State& state, const Model& model, const std::vector<PlacedWall>& walls)
+{
+    const StepConstants step(model);
+    const auto assemble_spheres =
+        model.periodicity.any() ? assemble_sphere_contacts<true> : assemble_sphere_contacts<false>;
+    const auto tiles = static_cast<std::int64_t>(network.tiles.count());
+    std::vector<ContactSurvey> surveys(network.tiles.count());
+#pragma omp parallel for schedule(dynamic) if (tiles > 16)
+    for (std::int64_t t = 0; t < tiles; ++t) {
+        const auto tile = static_cast<std::size_t>(t);
+        surveys[tile] = assemble_spheres(network, tile, state, model, step);
+        surveys[tile] += assemble_wall_contacts(network, tile, state, model, walls, step);
+    }
+    ContactSurvey all;
+    for (const auto& survey : surveys) all += survey;
+    if (model.physics.pistons) all += assemble_piston_contacts(network, state, model, walls, step);
+    return all;
+}
+
+} // namespace talus

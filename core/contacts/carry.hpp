@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/candidates/contact_network.hpp"
+#include "core/world/model.hpp"
+#include "core/world/state.hpp"
+
+namespace talus
+{
+
+/// What is handed on to the next step, read from the solved contacts.
+struct ContactOutcome {
+    double cone_violation = 0.0;      ///< worst |λ_t| − μ λ_n [N s], 0 if none
+    Vec3 wall_impulse = Vec3::Zero(); ///< Σ λ over the contacts with walls that are not pistons [N s]
+    double wall_work = 0.0;           ///< what moving walls did on the spheres, Σ λ·w and rolling rows likewise [J]
+    std::size_t beyond_solution = 0;  ///< contacts that came to be so in this step (press_count.hpp)
+
+    ContactOutcome& operator+=(const ContactOutcome& other);
+};
+
+/// Stores the impulses of the solved contacts in their slots (an impact carries none), counts for how long contacts
+/// have been pressed, and notes each sphere's last wall.
+ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model);
+
+} // namespace talus

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/candidates/contact.hpp"
+#include "core/world/model.hpp"
+
+#include <algorithm>
+
+namespace talus
+{
+
+/// Υ = 1/(1 + 4τ/h) at τ = 2h, the critical damping of the note's step: a bilateral
+/// error g₀ decays as g₀ (1 + 2k/3) 3⁻ᵏ over k steps.
+inline constexpr double upsilon = 1.0 / 9.0;
+
+/// σ N_min of `matched`: the softest normal compliance, in inverse mass sums, at which N_min warm-started sweeps
+/// neither boil nor creep. Measured in beds, columns and heaps: σ N = 0.2 is clean, 0.1 restless, 0.05 creeps, 0 boils.
+inline constexpr double sigma_per_sweep = 0.2;
+
+/// Share of an overlap that one position pass of `projected` removes: that of the note's step, 4Υ.
+inline constexpr double projected_share = 4.0 * upsilon;
+
+/// The normal law u_n + Σ_n λ_n ≥ q_n of one contact.
+struct NormalLaw {
+    double target;               ///< q_n [m/s]
+    double compliance;           ///< Σ_n [1/kg]
+    double feedback_share = 1.0; ///< of the feedback on overlap, and so of the stiffness 4Υ/(Σ_n h²), that it takes
+};
+
+/// What the law of a contact depends on.
+struct ContactEvent {
+    ContactKind kind;
+    double gap;                   ///< g [m]
+    double u_n;                   ///< of v⁽⁰⁾, before gravity [m/s]
+    double inverse_mass_sum;      ///< W [1/kg]
+    double carried_normal;        ///< λ_n⁽⁰⁾ [N s]
+    bool beyond_solution = false; ///< press_count.hpp
+};
+
+/// Σ_n of a resting contact of `matched`: that of the material's stiffness k, but no stiffer than N_min sweeps can
+/// carry.
+inline double matched_compliance(const ContactLaw& law, double inverse_mass_sum, double h, int min_sweeps)
+{
+    return std::max(4.0 * upsilon / (law.stiffness * h * h), sigma_per_sweep / min_sweeps * inverse_mass_sum);
+}
+
+/// What a sub-step takes of the feedback on overlap. The stiffness that sweeps can carry goes with 1/h², so with all of
+/// it a bed at rest would rise when its step is split. Shallow overlaps keep the stiffness of the whole step, and those
+/// five times as deep have that of the sub-step.
+inline double feedback_share(const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, double h)
+{
+    const auto compliance_in = [&](double step) {
+        return matched_compliance(law, event.inverse_mass_sum, step, solver.min_sweeps);
+    };
+    const double as_stiff =
+        compliance_in(h) / (compliance_in(solver.sub_steps * h) * solver.sub_steps * solver.sub_steps);
+    const double deep = std::clamp((-event.gap / solver.shallow_overlap - 1.0) / 4.0, 0.0, 1.0);
+    return as_stiff + deep * (1.0 - as_stiff);
+}
+
+/// `matched` (the default): the note's own step, eq. (2), with a compliance that the sweeps can carry. Of the feedback
+/// on overlap, what exceeds the need of the carried impulse is capped, so that a deep overlap does not become a shot.
+inline NormalLaw matched_law(const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, double h)
+{
+    const double compliance = matched_compliance(law, event.inverse_mass_sum, h, solver.min_sweeps);
+    const double share = solver.sub_steps == 1 ? 1.0 : feedback_share(event, law, solver, h);
+    const double held = compliance * event.carried_normal;
+    const double push_out = std::min(-4.0 / h * upsilon * share * event.gap - held, solver.push_out_speed);
+    return {held + push_out + upsilon * event.u_n, compliance, share};
+}
+
+/// `projected`: rigid, u_n ≥ 0; overlap is removed by moving the spheres (position_projection.hpp). What is beyond
+/// solution yields: it has an impulse in proportion to the speed with which it is closed, and none when it is not.
+inline NormalLaw projected_law(const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, double h)
+{
+    if (!event.beyond_solution) return {0.0, 0.0};
+    return {0.0, matched_compliance(law, event.inverse_mass_sum, h, solver.min_sweeps)};
+}
+
+/// The law of a contact by its kind: README (4).
+inline NormalLaw normal_law(const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, double h)
+{
+    switch (event.kind) {
+    case ContactKind::impact:
+        return {-law.restitution * event.u_n, 0.0};
+    case ContactKind::open:
+        return {-event.gap / h, 0.0};
+    case ContactKind::resting:
+        break;
+    }
+    return solver.stabilisation == Stabilisation::matched ? matched_law(event, law, solver, h)
+                                                          : projected_law(event, law, solver, h);
+}
+
+/// Which law a contact follows in this step.
+/// @param u_n_ahead of v⁽¹⁾, with gravity; @param touched in the step before it overlapped or, unless open, had an
+/// impulse
+inline ContactKind contact_kind(
+    double gap, double u_n, double u_n_ahead, bool touched, const ContactLaw& law, double h, double threshold_speed)
+{
+    const bool fast = law.restitution > 0.0 && u_n < -threshold_speed;
+    const bool begins = gap <= 0.0 ? !touched : gap + h * u_n_ahead < 0.0;
+    if (fast && begins) return ContactKind::impact;
+    return gap <= 0.0 ? ContactKind::resting : ContactKind::open;
+}
+
+} // namespace talus

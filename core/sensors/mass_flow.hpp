@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/time_window.hpp"
+#include "core/sensors/sensor.hpp"
+
+namespace talus
+{
+
+/// Mass flow through a plane: how fast the mass that was inserted and is no longer behind the plane grows. Spheres that
+/// left through an outlet have passed, wherever the outlet is.
+///
+/// Through a plane across a periodic axis, where nothing is behind or beyond, it is the mean over all such planes: in a
+/// step Σ m v·n h / length of the cell passes.
+///
+/// The rate is the least-squares slope of the passed mass over the window; its spread is the standard error of the
+/// slopes of five equal parts of it.
+class MassFlow : public Sensor
+{
+public:
+    /// @param normal unit, the direction of the flow; @param window the steady part
+    MassFlow(std::string name, const Vec3& point, const Vec3& normal, const TimeWindow& window);
+
+    void watch(const Snapshot& now) override;
+    void sample(const Snapshot& now) override;
+    std::vector<Measurement> latest() const override;
+    std::vector<Measurement> results() const override;
+    void persist(Archive& archive) override { archive(samples_, flowed_mass_, flowed_count_); }
+
+private:
+    struct Sample {
+        double time, mass, count;
+    };
+    Vec3 point_, normal_;
+    TimeWindow window_;
+    std::vector<Sample> samples_;
+    double flowed_mass_ = 0.0, flowed_count_ = 0.0; ///< through planes across a periodic axis [kg], [1]
+
+    /// The length of the cell along the normal [m]; infinite where that axis is not periodic.
+    double cell_length(const Periodicity& periodicity) const;
+};
+
+} // namespace talus

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/candidates/contact_network.hpp"
+#include "core/solver/piston_group.hpp"
+#include "core/world/model.hpp"
+#include "core/world/state.hpp"
+
+namespace talus
+{
+
+/// How a solve went.
+struct SolveReport {
+    int sweeps = 0;
+    double residual = 0.0; ///< ε
+    bool converged = true; ///< ε ≤ tolerance
+};
+
+/// Warm start: v ← v + M⁻¹ Gᵀ λ⁰ with the impulses in the contacts (README (5); the note forgets it).
+/// Returns Σ W|λ⁰|².
+double apply_warm_start(
+    ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion, const ModelledPhysics& physics);
+
+/// So many sweeps of projected Gauss–Seidel, as below, whatever the residual.
+void sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
+    const ModelledPhysics& physics);
+
+/// Projected Gauss–Seidel (Algorithm 3.1 of the note) on the contacts of the network: sweeps tile colour by tile
+/// colour, the tiles of one colour in parallel, and the pistons after them, until
+///
+///   ε = (Σ W|δ|² / max(Σ W|λ|², Σ W|λ⁰|²))^½ ≤ tolerance,  δ the exact correction of one contact alone,  README (9)
+///
+/// but at least min_sweeps and at most max_sweeps. The changes made by the sweeps tell when ε may be small enough; then
+/// a pass that changes nothing measures ε itself, and the sweeps go on if it is not.
+/// @param warm_size Σ W|λ⁰|² of the warm start
+/// @param sweeps_made sweeps of this step that were made before, and count
+SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
+    const ModelledPhysics& physics, const SolverSettings& solver, double warm_size, int sweeps_made = 0);
+
+} // namespace talus

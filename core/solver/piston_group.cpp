@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/piston_group.hpp"
+
+#include "core/solver/step_parts.hpp"
+
+#include <numeric>
+
+namespace talus
+{
+namespace
+{
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using multibody::Constraint;
+
+/// Makes the problem body by body, constraint by constraint.
+class ProblemMaker
+{
+public:
+    ProblemMaker(const ContactNetwork& network, const State& state, const Model& model)
+        : contacts_(network.piston_contacts), arms_(network.piston_arms), state_(state), model_(model),
+          rows_(rows_of_contact(model.physics)), body_of_sphere_(state.count(), unknown)
+    {
+    }
+
+    PistonProblem make()
+    {
+        for (std::size_t k = 0; k < model_.pistons.size(); ++k)
+            add_piston_body(made_.problem, model_.pistons[k], state_.pistons[k], model_, state_.time);
+        for (std::size_t k = 0; k < contacts_.count[0]; ++k) add_contact(k);
+        for (std::size_t k = 0; k < model_.pistons.size(); ++k)
+            add_guide(made_.problem, k, model_.pistons[k], state_.pistons[k], model_, state_.time);
+        set_warm_impulse();
+        return std::move(made_);
+    }
+
+private:
+    static constexpr std::size_t unknown = 0; ///< the number of a piston, never that of a sphere
+
+    const ContactArrays& contacts_;
+    const std::vector<Vec3>& arms_;
+    const State& state_;
+    const Model& model_;
+    const Index rows_; ///< of a contact
+    PistonProblem made_;
+    std::vector<std::size_t> body_of_sphere_;
+
+    std::size_t body_of(std::int32_t sphere)
+    {
+        auto& body = body_of_sphere_[sphere];
+        if (body == unknown) {
+            body = made_.problem.body_count();
+            made_.spheres.push_back(sphere);
+            // without gravity: its velocity comes from the spheres in each sweep
+            add_sphere_body(made_.problem, state_.motion[sphere], model_.physics.spin, Vec3::Zero());
+        }
+        return body;
+    }
+
+    void add_contact(std::size_t k)
+    {
+        const Contact& c = contacts_.contact[k];
+        const ContactTerms& terms = contacts_.terms[k];
+        const auto& basis = made_.bases.emplace_back(contact_basis(c.normal));
+        const auto piston = static_cast<std::size_t>(model_.walls[c.b].piston);
+        talus::add_contact(made_.problem, contacts_, k, basis, rows_,
+            {{body_of(c.a), sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, 1.0)},
+                {piston, piston_rows(basis, rows_, arms_[k])}});
+        made_.warm_size += terms.inverse_mass_sum * c.impulse.squaredNorm();
+        if (model_.physics.rolling)
+            made_.warm_size += contacts_.rolling[k].impulse.squaredNorm() / contacts_.rolling[k].inertia;
+    }
+
+    void set_warm_impulse()
+    {
+        const auto& constraints = made_.problem.constraints();
+        made_.warm_impulse.resize(made_.problem.rows());
+        for (std::size_t k = 0; k < contacts_.count[0]; ++k)
+            made_.warm_impulse.segment(constraints[k].first_row, rows_) =
+                impulse_in_rows(contacts_, k, made_.bases[k], rows_);
+        for (std::size_t k = 0; k < model_.pistons.size(); ++k) {
+            const Constraint& guide = constraints[contacts_.count[0] + k];
+            made_.warm_impulse.segment(guide.first_row, guide.rows) = state_.pistons[k].guide_impulse.head(guide.rows);
+        }
+    }
+};
+
+PistonProblem make_problem(const ContactNetwork& network, const State& state, const Model& model)
+{
+    if (model.pistons.empty()) return {};
+    return ProblemMaker(network, state, model).make();
+}
+
+} // namespace
+
+PistonGroup::PistonGroup(const ContactNetwork& network, const State& state, const Model& model)
+    : own_(make_problem(network, state, model)), iterate_(own_.problem),
+      algorithm_(iterate_, multibody::LocalSolve::sequential), sequence_(own_.problem.constraints().size())
+{
+    std::iota(sequence_.begin(), sequence_.end(), std::size_t{0});
+    guides_.assign(sequence_.end() - static_cast<std::ptrdiff_t>(model.pistons.size()), sequence_.end());
+}
+
+double PistonGroup::warm_start(Motion* motion)
+{
+    fetch(motion);
+    for (const std::size_t k : sequence_) iterate_.add(k, own_.problem.rows_of(k, own_.warm_impulse));
+    put_back(motion);
+    return own_.warm_size;
+}
+
+SweepSums PistonGroup::sweep(Motion* motion)
+{
+    fetch(motion);
+    const SweepSums sums = algorithm_.sweep(iterate_, sequence_);
+    put_back(motion);
+    return sums;
+}
+
+SweepSums PistonGroup::measure(const Motion* motion)
+{
+    fetch(motion);
+    return algorithm_.measure(iterate_);
+}
+
+WallRow PistonGroup::motion_at(std::size_t piston, const Vec3& arm) const
+{
+    const auto velocity = own_.problem.dofs_of(piston, iterate_.velocity());
+    const Vec3 spin = velocity.tail<3>();
+    return {velocity.head<3>() + spin.cross(arm), spin};
+}
+
+void PistonGroup::scale(const std::vector<double>& growth, Motion* motion)
+{
+    fetch(motion);
+    for (std::size_t k = 0; k < growth.size(); ++k)
+        iterate_.add(k, growth[k] * own_.problem.rows_of(k, iterate_.impulse()));
+    algorithm_.sweep(iterate_, guides_);
+    put_back(motion);
+}
+
+void PistonGroup::store(ContactNetwork& network, State& state) const
+{
+    if (empty()) return;
+    auto& contacts = network.piston_contacts;
+    const auto& impulse = iterate_.impulse();
+    for (std::size_t k = 0; k < contacts.count[0]; ++k) {
+        const auto own = own_.problem.rows_of(k, impulse);
+        contacts.contact[k].impulse = own_.bases[k] * own.head<contact_rows>();
+        if (!contacts.rolling.empty())
+            contacts.rolling[k].impulse =
+                own_.bases[k].rightCols<multibody::rolling_rows>() * own.tail<multibody::rolling_rows>();
+    }
+    for (std::size_t k = 0; k < state.pistons.size(); ++k) {
+        PistonState& piston = state.pistons[k];
+        const auto guide = own_.problem.rows_of(contacts.count[0] + k, impulse);
+        piston.guide_impulse.setZero();
+        piston.guide_impulse.head(guide.size()) = guide;
+        const auto velocity = own_.problem.dofs_of(k, iterate_.velocity());
+        piston.velocity = velocity.head<3>();
+        piston.spin = velocity.tail<3>();
+    }
+}
+
+void PistonGroup::fetch(const Motion* motion)
+{
+    const auto pistons = own_.problem.body_count() - own_.spheres.size();
+    for (std::size_t k = 0; k < own_.spheres.size(); ++k) {
+        const Motion& m = motion[own_.spheres[k]];
+        auto velocity = own_.problem.dofs_of(pistons + k, iterate_.velocity());
+        velocity.head<3>() = m.velocity;
+        if (velocity.size() == 6) velocity.tail<3>() = m.rim_velocity;
+    }
+}
+
+void PistonGroup::put_back(Motion* motion) const
+{
+    const auto pistons = own_.problem.body_count() - own_.spheres.size();
+    for (std::size_t k = 0; k < own_.spheres.size(); ++k) {
+        Motion& m = motion[own_.spheres[k]];
+        const auto velocity = own_.problem.dofs_of(pistons + k, iterate_.velocity());
+        m.velocity = velocity.head<3>();
+        if (velocity.size() == 6) m.rim_velocity = velocity.tail<3>();
+    }
+}
+
+} // namespace talus

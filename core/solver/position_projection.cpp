@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/position_projection.hpp"
+
+#include "core/solver/tile_crew.hpp"
+
+namespace talus
+{
+namespace
+{
+
+constexpr double deepest_in_wall = 0.25; ///< smallest diameters
+
+void separate_spheres(const Contact& c, State& state, const Periodicity& periodicity, double share)
+{
+    const Motion& a = state.motion[c.a];
+    const Motion& b = state.motion[c.b];
+    const Vec3 across = periodicity.nearest_image(state.position[c.a] - state.position[c.b]);
+    const double distance = across.norm();
+    const double overlap = a.radius + b.radius - distance;
+    if (overlap <= 0.0) return;
+    const Vec3 normal = distance > 0.0 ? Vec3(across / distance) : c.normal;
+    const Vec3 shift = share * overlap / (a.inverse_mass + b.inverse_mass) * normal;
+    state.position[c.a] += a.inverse_mass * shift;
+    state.position[c.b] -= b.inverse_mass * shift;
+}
+
+/// The wall is taken for flat within a step: its gap is n·x less the level found when the step began.
+void separate_from_wall(const Contact& c, double wall_level, State& state, double share)
+{
+    const double overlap = wall_level - c.normal.dot(state.position[c.a]);
+    if (overlap > 0.0) state.position[c.a] += share * overlap * c.normal;
+}
+
+/// How far a piston has come since the step began. @param began how its wall stood then
+Vec3 way_of(const Piston& piston, const PlacedWall& began, const State& state)
+{
+    return state.pistons[began.wall().piston].pose(piston.center) - began.pose()(piston.center);
+}
+
+/// Likewise; the level goes with the piston.
+void separate_from_piston(
+    const Contact& c, double wall_level, const Piston& piston, const PlacedWall& began, State& state, double share)
+{
+    const double overlap = wall_level + c.normal.dot(way_of(piston, began, state) - state.position[c.a]);
+    if (overlap <= 0.0) return;
+    const double along_guide = c.normal.dot(piston.guide);
+    const double inverse_mass = state.motion[c.a].inverse_mass;
+    const double piston_inverse_mass = piston.is_free(state.time) ? 1.0 / piston.mass : 0.0;
+    const double shift = share * overlap / (inverse_mass + along_guide * along_guide * piston_inverse_mass);
+    state.position[c.a] += inverse_mass * shift * c.normal;
+    state.pistons[began.wall().piston].pose.shift -= piston_inverse_mass * shift * along_guide * piston.guide;
+}
+
+} // namespace
+
+void project_positions(
+    const ContactNetwork& network, State& state, const Model& model, const std::vector<PlacedWall>& walls, double share)
+{
+    const auto& spheres = network.sphere_contacts;
+    const auto& at_walls = network.wall_contacts;
+    const auto separate = [&](std::size_t tile) {
+        const auto first = network.pairs_of_tile[tile];
+        for (auto k = first; k < first + spheres.count[tile]; ++k)
+            separate_spheres(spheres.contact[k], state, model.periodicity, share);
+        const auto first_wall = network.wall_slots_of_tile[tile];
+        for (auto k = first_wall; k < first_wall + at_walls.count[tile]; ++k)
+            separate_from_wall(at_walls.contact[k], at_walls.geometry[k].wall_level, state, share);
+    };
+    with_tile_crew(network.tiles, [&](TileCrew& crew) { crew.color_by_color(separate); });
+
+    const auto& pistons = network.piston_contacts;
+    for (std::size_t k = 0; model.physics.pistons && k < pistons.count[0]; ++k) {
+        const Contact& c = pistons.contact[k];
+        const PlacedWall& wall = walls[c.b];
+        separate_from_piston(c, pistons.geometry[k].wall_level, model.pistons[wall.wall().piston], wall, state, share);
+    }
+}
+
+void hold_at_walls(
+    const ContactNetwork& network, State& state, const Model& model, const std::vector<PlacedWall>& walls)
+{
+    const double deepest = deepest_in_wall * model.min_diameter;
+    const auto hold = [&](const Contact& c, double wall_level) {
+        const double overlap = wall_level - c.normal.dot(state.position[c.a]);
+        if (overlap > deepest) state.position[c.a] += (overlap - deepest) * c.normal;
+    };
+    const auto& at_walls = network.wall_contacts;
+    for (std::size_t tile = 0; tile < network.tiles.count(); ++tile) {
+        const auto first = network.wall_slots_of_tile[tile];
+        for (auto k = first; k < first + at_walls.count[tile]; ++k)
+            hold(at_walls.contact[k], at_walls.geometry[k].wall_level);
+    }
+    const auto& pistons = network.piston_contacts;
+    for (std::size_t k = 0; model.physics.pistons && k < pistons.count[0]; ++k) {
+        const Contact& c = pistons.contact[k];
+        const PlacedWall& began = walls[c.b];
+        const Vec3 way = way_of(model.pistons[began.wall().piston], began, state);
+        hold(c, pistons.geometry[k].wall_level + c.normal.dot(way));
+    }
+}
+
+} // namespace talus

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/candidates/contact_network.hpp"
+#include "core/world/model.hpp"
+#include "core/world/placed_wall.hpp"
+#include "core/world/state.hpp"
+
+namespace talus
+{
+
+/// The position half of `projected`: one nonlinear Gauss–Seidel pass over the contacts, in which each overlapping pair
+/// is moved apart by a share of its present overlap, in inverse proportion to the masses. Velocities do not change, so
+/// overlap never becomes energy. A piston gives way along its guide, after its release.
+/// @param walls as they stood when the step began
+void project_positions(const ContactNetwork& network, State& state, const Model& model,
+    const std::vector<PlacedWall>& walls, double share);
+
+/// In sub-steps walls have the last word: what lies deeper in one than a quarter of the smallest
+/// diameter, pressed by heavier or faster spheres than the sweeps can stop, is brought back to that depth, so that no
+/// centre comes to the other side.
+void hold_at_walls(
+    const ContactNetwork& network, State& state, const Model& model, const std::vector<PlacedWall>& walls);
+
+} // namespace talus

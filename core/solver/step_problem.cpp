@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/step_problem.hpp"
+
+#include "core/solver/step_parts.hpp"
+
+namespace talus
+{
+namespace
+{
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using multibody::BodyRows;
+
+/// States a step's problem body by body, constraint by constraint.
+class Statement
+{
+public:
+    Statement(const State& state, const Model& model)
+        : state_(state), model_(model), rows_(rows_of_contact(model.physics))
+    {
+        for (const Motion& motion : state.motion)
+            add_sphere_body(stated_.problem, motion, model.physics.spin, model.time_step * model.gravity);
+        for (std::size_t k = 0; k < model.pistons.size(); ++k)
+            add_piston_body(stated_.problem, model.pistons[k], state.pistons[k], model, state.time);
+    }
+
+    void add_sphere_contact(const ContactArrays& arrays, std::size_t k)
+    {
+        add_contact(arrays, k, [&](const Eigen::Matrix3d& basis) {
+            return BodyRows{static_cast<std::size_t>(arrays.contact[k].b),
+                sphere_rows(basis, rows_, state_.motion[arrays.contact[k].b], model_.physics.spin, -1.0,
+                    arrays.terms[k].arm_scale)};
+        });
+    }
+
+    void add_wall_contact(const ContactArrays& arrays, std::size_t k) { add_contact(arrays, k, nullptr); }
+
+    /// @param arm from the piston's centre [m]
+    void add_piston_contact(const ContactArrays& arrays, std::size_t k, const Vec3& arm)
+    {
+        const auto piston = static_cast<std::size_t>(model_.walls[arrays.contact[k].b].piston);
+        add_contact(arrays, k, [&](const Eigen::Matrix3d& basis) {
+            return BodyRows{state_.count() + piston, piston_rows(basis, rows_, arm)};
+        });
+    }
+
+    void add_guides()
+    {
+        for (std::size_t k = 0; k < model_.pistons.size(); ++k) {
+            const PistonState& own = state_.pistons[k];
+            add_guide(stated_.problem, state_.count() + k, model_.pistons[k], own, model_, state_.time);
+            append_warm(own.guide_impulse.head(stated_.problem.constraints().back().rows));
+        }
+    }
+
+    StepProblem finished()
+    {
+        stated_.warm_impulse = Eigen::Map<const VectorXd>(warm_.data(), static_cast<Index>(warm_.size()));
+        return std::move(stated_);
+    }
+
+private:
+    const State& state_;
+    const Model& model_;
+    Index rows_; ///< of a contact
+    StepProblem stated_;
+    std::vector<double> warm_;
+
+    /// @param rows_of_other returns what body b contributes; null at a wall
+    template <class RowsOfOther>
+    void add_contact(const ContactArrays& arrays, std::size_t k, RowsOfOther&& rows_of_other)
+    {
+        const Contact& c = arrays.contact[k];
+        const Eigen::Matrix3d basis = contact_basis(c.normal);
+        std::vector<BodyRows> bodies = {{static_cast<std::size_t>(c.a),
+            sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, arrays.terms[k].arm_scale)}};
+        if constexpr (!std::is_null_pointer_v<std::decay_t<RowsOfOther>>) bodies.push_back(rows_of_other(basis));
+        talus::add_contact(stated_.problem, arrays, k, basis, rows_, bodies);
+        append_warm(impulse_in_rows(arrays, k, basis, rows_));
+    }
+
+    void append_warm(const VectorXd& impulse) { warm_.insert(warm_.end(), impulse.begin(), impulse.end()); }
+};
+
+} // namespace
+
+StepProblem make_step_problem(const State& state, const ContactNetwork& contacts, const Model& model)
+{
+    Statement statement(state, model);
+    for (std::size_t tile = 0; tile < contacts.tiles.count(); ++tile) {
+        const auto& [spheres, walls] = std::tie(contacts.sphere_contacts, contacts.wall_contacts);
+        const std::size_t first_pair = contacts.pairs_of_tile[tile], first_slot = contacts.wall_slots_of_tile[tile];
+        for (std::size_t k = first_pair; k < first_pair + spheres.count[tile]; ++k)
+            statement.add_sphere_contact(spheres, k);
+        for (std::size_t k = first_slot; k < first_slot + walls.count[tile]; ++k) statement.add_wall_contact(walls, k);
+    }
+    if (model.physics.pistons)
+        for (std::size_t k = 0; k < contacts.piston_contacts.count[0]; ++k)
+            statement.add_piston_contact(contacts.piston_contacts, k, contacts.piston_arms[k]);
+    statement.add_guides();
+    return statement.finished();
+}
+
+} // namespace talus

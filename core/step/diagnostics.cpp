@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/step/diagnostics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace talus
+{
+namespace
+{
+
+constexpr std::size_t block = 1024; ///< spheres that are summed together: fixed, so sums do not depend on the threads
+
+std::optional<Incident::Kind> incident_of(const State& state, const Model& model, std::size_t i)
+{
+    const auto& m = state.motion[i];
+    if (!(state.position[i].allFinite() && m.velocity.allFinite() && m.rim_velocity.allFinite()))
+        return Incident::Kind::not_a_number;
+    if (m.velocity.norm() > model.speed_limit) return Incident::Kind::blow_up;
+    if (!model.world.contains(state.position[i]) && !state.leaving[i]) return Incident::Kind::escaped;
+    return std::nullopt;
+}
+
+StateSurvey survey_block(const State& state, const Model& model, std::size_t begin, std::size_t end)
+{
+    StateSurvey survey;
+    const Vec3 along = model.periodicity.part_along(model.gravity); // there is no height on these axes
+    const double whole_step = model.time_step * model.solver.sub_steps;
+    for (std::size_t i = begin; i < end; ++i) {
+        const auto& m = state.motion[i];
+        const double speed = m.velocity.norm();
+        survey.kinetic_energy += kinetic_energy(m);
+        survey.potential_energy -= (model.gravity - along).dot(state.position[i]) / m.inverse_mass;
+        survey.gravity_work += model.time_step * along.dot(m.velocity) / m.inverse_mass;
+        survey.fastest_speed = std::max(survey.fastest_speed, speed);
+        if (speed * whole_step > 0.2 * m.radius) ++survey.long_moves;
+        if (const auto kind = incident_of(state, model, i))
+            survey.incidents.push_back({*kind, state.id[i], state.position[i], speed, state.last_wall[i]});
+    }
+    return survey;
+}
+
+std::optional<Incident::Kind> incident_of(const PistonState& state, const Vec3& center, const Model& model)
+{
+    if (!(center.allFinite() && state.velocity.allFinite() && state.spin.allFinite()))
+        return Incident::Kind::not_a_number;
+    if (state.velocity.norm() > model.speed_limit) return Incident::Kind::blow_up;
+    if (!model.world.contains(center)) return Incident::Kind::escaped;
+    return std::nullopt;
+}
+
+/// Of the smallest spheres that it may meet.
+constexpr double longest_piston_move = 0.1;
+
+void survey_piston(const Piston& piston, const PistonState& state, const Model& model, StateSurvey& survey)
+{
+    const Vec3 center = state.pose(piston.center);
+    const double speed = state.velocity.norm();
+    survey.kinetic_energy += kinetic_energy(piston, state);
+    survey.potential_energy -= piston.mass * model.gravity.dot(center);
+    survey.fastest_speed = std::max(survey.fastest_speed, speed);
+    if (speed * model.time_step * model.solver.sub_steps > longest_piston_move * model.min_diameter)
+        ++survey.long_moves;
+    if (const auto kind = incident_of(state, center, model))
+        survey.incidents.push_back({*kind, -1, center, speed, static_cast<std::int32_t>(piston.wall)});
+}
+
+} // namespace
+
+double kinetic_energy(const Motion& m)
+{
+    return 0.5 / m.inverse_mass * (m.velocity.squaredNorm() + m.rim_velocity.squaredNorm() / inverse_inertia_factor);
+}
+
+double kinetic_energy(const State& state)
+{
+    double sum = 0.0;
+    for (const auto& m : state.motion) sum += kinetic_energy(m);
+    return sum;
+}
+
+double potential_energy(const State& state, const Vec3& gravity)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < state.count(); ++i)
+        sum -= gravity.dot(state.position[i]) / state.motion[i].inverse_mass;
+    return sum;
+}
+
+Vec3 linear_momentum(const State& state)
+{
+    Vec3 sum = Vec3::Zero();
+    for (const auto& m : state.motion) sum += m.velocity / m.inverse_mass;
+    return sum;
+}
+
+Vec3 angular_momentum(const State& state)
+{
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        const auto& m = state.motion[i];
+        sum +=
+            (state.position[i].cross(m.velocity) + m.radius / inverse_inertia_factor * m.rim_velocity) / m.inverse_mass;
+    }
+    return sum;
+}
+
+StateSurvey survey_state(const State& state, const Model& model)
+{
+    const std::size_t blocks = (state.count() + block - 1) / block;
+    std::vector<StateSurvey> of_block(blocks);
+#pragma omp parallel for schedule(static) if (blocks > 1)
+    for (std::int64_t b = 0; b < static_cast<std::int64_t>(blocks); ++b) {
+        const auto begin = static_cast<std::size_t>(b) * block;
+        of_block[static_cast<std::size_t>(b)] =
+            survey_block(state, model, begin, std::min(begin + block, state.count()));
+    }
+    StateSurvey all;
+    for (const auto& part : of_block) {
+        all.kinetic_energy += part.kinetic_energy;
+        all.potential_energy += part.potential_energy;
+        all.gravity_work += part.gravity_work;
+        all.fastest_speed = std::max(all.fastest_speed, part.fastest_speed);
+        all.long_moves += part.long_moves;
+        all.incidents.insert(all.incidents.end(), part.incidents.begin(), part.incidents.end());
+    }
+    for (std::size_t k = 0; k < model.pistons.size(); ++k)
+        survey_piston(model.pistons[k], state.pistons[k], model, all);
+    return all;
+}
+
+} // namespace talus

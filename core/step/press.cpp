@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/step/press.hpp"
+
+#include "core/contacts/loaded_contacts.hpp"
+
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace talus
+{
+namespace
+{
+
+/// Loaded contacts of this overlap join bodies to a group, in smallest diameters: far more than they have at rest.
+constexpr double joining_overlap = 0.1 * pressed_overlap;
+
+/// Groups of spheres, each named by one of its spheres.
+class Groups
+{
+public:
+    explicit Groups(std::size_t spheres) : parent_(spheres) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+    std::int32_t of(std::int32_t sphere)
+    {
+        while (parent_[sphere] != sphere) sphere = parent_[sphere] = parent_[parent_[sphere]];
+        return sphere;
+    }
+
+    void join(std::int32_t a, std::int32_t b) { parent_[of(a)] = of(b); }
+
+private:
+    std::vector<std::int32_t> parent_;
+};
+
+/// What is known of a group.
+struct Press {
+    std::set<std::int64_t> spheres; ///< ids
+    std::set<std::int32_t> walls;
+    bool is_new = false, is_known = false;
+    double overlap = 0.0;    ///< of the deepest contact that is beyond solution
+    std::int32_t sphere = 0; ///< one that it presses, by storage index
+};
+
+} // namespace
+
+std::vector<Incident> find_presses(const ContactNetwork& network, const State& state, const Model& model)
+{
+    const auto is_deep = [&](const ContactGeometry& g) { return -g.gap > joining_overlap * model.min_diameter; };
+    Groups groups(state.count());
+    for_each_loaded_sphere_contact(network, [&](const Contact& c, const ContactGeometry& g) {
+        if (is_deep(g)) groups.join(c.a, c.b);
+    });
+
+    std::map<std::int32_t, Press> presses;
+    const auto add = [&](const Contact& c, const ContactGeometry& g, std::uint8_t touched) -> Press& {
+        Press& press = presses[groups.of(c.a)];
+        press.spheres.insert(state.id[c.a]);
+        const bool is_new = came_beyond_solution(touched);
+        press.is_known = press.is_known || (is_beyond_solution(touched) && !is_new);
+        press.is_new = press.is_new || is_new;
+        if (is_beyond_solution(touched) && -g.gap > press.overlap) {
+            press.overlap = -g.gap;
+            press.sphere = c.a;
+        }
+        return press;
+    };
+    for_each_loaded_sphere_contact(network, [&](const Contact& c, const ContactGeometry& g) {
+        if (is_deep(g)) add(c, g, network.pair_carried.touched[g.slot]).spheres.insert(state.id[c.b]);
+    });
+    for_each_loaded_wall_contact(network, [&](const Contact& c, const ContactGeometry& g) {
+        if (is_deep(g)) add(c, g, network.wall_carried.touched[g.slot]).walls.insert(c.b);
+    });
+
+    std::vector<Incident> incidents;
+    for (const auto& [group, press] : presses) {
+        if (!press.is_new || press.is_known) continue;
+        incidents.push_back({.kind = Incident::Kind::pressed,
+            .id = state.id[press.sphere],
+            .position = state.position[press.sphere],
+            .speed = state.motion[press.sphere].velocity.norm(),
+            .last_wall = state.last_wall[press.sphere],
+            .spheres = {press.spheres.begin(), press.spheres.end()},
+            .walls = {press.walls.begin(), press.walls.end()},
+            .overlap = press.overlap});
+    }
+    return incidents;
+}
+
+} // namespace talus

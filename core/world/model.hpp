@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/periodicity.hpp"
+#include "core/base/region.hpp"
+#include "core/world/material.hpp"
+#include "core/world/piston.hpp"
+#include "core/world/wall.hpp"
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+
+/// How overlap is kept small (stabilisation.hpp has the laws).
+enum class Stabilisation { matched, projected };
+
+struct SolverSettings {
+    Stabilisation stabilisation = Stabilisation::matched;
+    int min_sweeps = 2;                 ///< N_min; it also sets the stiffness of `matched`
+    int max_sweeps = 100;               ///< a step that stops here unconverged is counted and told
+    double tolerance = 1e-2;            ///< on the residual ε, see gauss_seidel.hpp
+    double relaxation = 1.3;            ///< ω of the sweeps after the first N_min; 1: none
+    double restitution_threshold = 3.0; ///< impacts slower than this times gravity × step do not rebound
+    double push_out_speed = infinity;   ///< cap on the speed with which overlap is undone [m/s]
+    bool pressure_scaling = false;      ///< before the sweeps, see pressure_scaling/; with `projected` only
+
+    // Where a step is split (sub_steps.hpp) and the model's time step is that of a sub-step:
+    int sub_steps = 1;            ///< of the whole step, this being one
+    double shallow_overlap = 0.0; ///< up to this a contact is no stiffer than in a whole step [m]
+};
+
+/// What the scene needs; the rest does not exist in the step.
+struct ModelledPhysics {
+    bool friction = false;
+    bool spin = false; ///< spheres turn; never without friction
+    bool rolling = false;
+    bool restitution = false;
+    bool moving_walls = false; ///< as they are told
+    bool pistons = false;
+    bool wall_loads = false; ///< a sensor asks for them
+};
+
+/// The constant part of a simulation.
+struct Model {
+    Vec3 gravity = Vec3(0, 0, -9.81); ///< [m/s²]
+    double time_step = 0.0;           ///< h [s]
+    Materials materials;
+    std::vector<Wall> walls;
+    std::vector<Piston> pistons;   ///< the walls of finite mass
+    std::vector<Region> outlets;   ///< a sphere whose centre enters one leaves the world lawfully
+    Periodicity periodicity;       ///< none unless the scene asks for it
+    Box world;                     ///< a sphere whose centre leaves it elsewhere has escaped
+    Vec3 corner = Vec3::Zero();    ///< of the scene as it begins: tiles and hats are counted from there [m]
+    double speed_limit = infinity; ///< a faster sphere is a blow-up [m/s]
+    double mean_diameter = 0.0;    ///< d, of all spheres that the scene makes; the unit of lengths in reports [m]
+    double min_diameter = 0.0;
+    double max_diameter = 0.0;
+    ModelledPhysics physics;
+    SolverSettings solver;
+
+    /// Against gravity, as far as it acts across periodic axes; +z without: where the surface of a bed is.
+    Vec3 up() const;
+};
+
+} // namespace talus

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/world/state.hpp"
+
+#include <numbers>
+
+namespace talus
+{
+namespace
+{
+
+template <class T>
+void renumber(std::vector<T>& values, const std::vector<std::int32_t>& new_index, std::size_t new_count)
+{
+    std::vector<T> result(new_count);
+    for (std::size_t i = 0; i < new_index.size(); ++i)
+        if (new_index[i] >= 0) result[static_cast<std::size_t>(new_index[i])] = values[i];
+    values = std::move(result);
+}
+
+} // namespace
+
+std::size_t add_sphere(State& state, const Vec3& position, double radius, double density, int material,
+    const Vec3& velocity, const Vec3& angular_velocity)
+{
+    const double mass = density * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+    state.inserted_mass += mass;
+    state.position.push_back(position);
+    state.position_rest.push_back(Vec3::Zero());
+    state.motion.push_back({velocity, 1.0 / mass, radius * angular_velocity, radius});
+    state.material.push_back(material);
+    state.id.push_back(state.next_id++);
+    state.last_wall.push_back(-1);
+    state.leaving.push_back(0);
+    return state.count() - 1;
+}
+
+void renumber_spheres(State& state, const std::vector<std::int32_t>& new_index, std::size_t new_count)
+{
+    renumber(state.position, new_index, new_count);
+    renumber(state.position_rest, new_index, new_count);
+    renumber(state.motion, new_index, new_count);
+    renumber(state.material, new_index, new_count);
+    renumber(state.id, new_index, new_count);
+    renumber(state.last_wall, new_index, new_count);
+    renumber(state.leaving, new_index, new_count);
+}
+
+} // namespace talus

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/run/run_files.hpp"
+
+#include "io/text/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace talus
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/// The file that marks a folder as a run of Talus.
+constexpr const char* marker = "scene.resolved.toml";
+
+/// With which the files of tables begin.
+constexpr const char* profile_prefix = "profile_";
+
+[[noreturn]] void refuse_output(const fs::path& path, const std::string& reason)
+{
+    throw OutputError(fmt::format("{}: cannot be written: {}", path.string(), reason));
+}
+
+/// Whether a run of Talus writes a file of this name into its folder or its `frames`.
+bool is_output_of_a_run(const std::string& name)
+{
+    if (name.starts_with(profile_prefix) && (name.ends_with(".csv") || name.ends_with(".csv.tmp"))) return true;
+    constexpr std::array<std::string_view, 4> files = {"metrics.csv", "summary.json", "lost.vtp", marker};
+    constexpr std::array<std::string_view, 5> series = {"particles", "contacts", "walls", "moving_walls", "checkpoint"};
+    for (const std::string_view file : files)
+        if (name == file || name == fmt::format("{}.tmp", file)) return true;
+    for (const std::string_view one : series)
+        if (name.starts_with(fmt::format("{}.", one)) || name.starts_with(fmt::format("{}_", one))) return true;
+    return false;
+}
+
+/// Whether nothing is in a folder but, perhaps, a marker that a run did not live to finish.
+bool is_unused(const fs::path& folder)
+{
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+        if (entry.path().filename() != fmt::format("{}.tmp", marker)) return false;
+    if (error) refuse_output(folder, error.message());
+    return true;
+}
+
+/// Removes what a run wrote, and nothing else: a user may keep notes and pictures beside it.
+void remove_run(const fs::path& folder)
+{
+    std::error_code error;
+    for (const fs::path& place : {folder / "frames", folder}) {
+        if (!fs::is_directory(place, error)) continue;
+        for (const auto& entry : fs::directory_iterator(place, error)) {
+            if (entry.is_directory() || !is_output_of_a_run(entry.path().filename().string())) continue;
+            std::error_code removal;
+            if (!fs::remove(entry.path(), removal)) refuse_output(entry.path(), removal.message());
+        }
+        if (error) refuse_output(place, error.message());
+    }
+}
+
+/// Writes all bytes; false with errno set where that fails.
+bool write_all(int descriptor, std::string_view bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return false;
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
+}
+
+/// Writes all parts and brings them to the disk; false with errno set where that fails.
+bool write_all(int descriptor, std::initializer_list<std::string_view> parts)
+{
+    for (const std::string_view part : parts)
+        if (!write_all(descriptor, part)) return false;
+    return ::fsync(descriptor) == 0;
+}
+
+/// A unit as it stands in a column's name: kg/s becomes _kg_per_s.
+std::string unit_suffix(std::string unit)
+{
+    if (unit.empty() || unit == "1") return "";
+    std::ranges::replace(unit, ' ', '_');
+    const auto slash = unit.find('/');
+    if (slash == std::string::npos) return fmt::format("_{}", unit);
+    const std::string above = unit.substr(0, slash), below = unit.substr(slash + 1);
+    return above == "1" ? fmt::format("_per_{}", below) : fmt::format("_{}_per_{}", above, below);
+}
+
+std::string csv_field(const std::string& name)
+{
+    if (name.find_first_of(",\"\n") == std::string::npos) return name;
+    std::string quoted;
+    for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return fmt::format("\"{}\"", quoted);
+}
+
+std::string header_line(const std::vector<std::string>& columns)
+{
+    std::vector<std::string> fields;
+    for (const std::string& column : columns) fields.push_back(csv_field(column));
+    return fmt::format("{}", fmt::join(fields, ","));
+}
+
+} // namespace
+
+void make_run_folder(const fs::path& folder, const std::string& resolved_scene, bool force)
+{
+    std::error_code error;
+    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+        throw InputError(fmt::format("{}: is a file, not a folder for a run's output", folder.string()));
+    if (fs::is_directory(folder, error) && !is_unused(folder)) {
+        if (!fs::exists(folder / marker, error))
+            throw InputError(fmt::format(
+                "{}: the folder holds files that are not of a run of Talus; choose another with -o", folder.string()));
+        if (!force)
+            throw InputError(fmt::format(
+                "{}: the folder holds a run already; --force replaces it, -o chooses another", folder.string()));
+        remove_run(folder);
+    }
+    fs::create_directories(folder, error);
+    if (error) refuse_output(folder, error.message());
+    write_atomically(folder / marker, resolved_scene);
+}
+
+void require_writable(const fs::path& path)
+{
+    if (fs::is_directory(path)) refuse_output(path, std::strerror(EISDIR));
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) refuse_output(path, std::strerror(errno));
+}
+
+void write_atomically(const fs::path& path, std::string_view text)
+{
+    write_atomically(path, {text});
+}
+
+void write_atomically(const fs::path& path, std::initializer_list<std::string_view> parts)
+{
+    const fs::path temporary = path.string() + ".tmp";
+    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor < 0) refuse_output(path, std::strerror(errno));
+    const int failure = write_all(descriptor, parts) ? 0 : errno;
+    const bool closed = ::close(descriptor) == 0;
+    if (failure == 0 && closed && ::rename(temporary.c_str(), path.c_str()) == 0) return;
+    const std::string reason = std::strerror(failure != 0 ? failure : errno);
+    ::unlink(temporary.c_str());
+    refuse_output(path, reason);
+}
+
+std::string column_name(const std::string& name, const std::string& unit)
+{
+    return name + unit_suffix(unit);
+}
+
+void write_table(const fs::path& folder, const std::string& name, const Table& table)
+{
+    std::vector<std::string> fields;
+    for (const auto& [column, unit] : table.columns) fields.push_back(csv_field(column_name(column, unit)));
+    std::string text = fmt::format("{}\n", fmt::join(fields, ","));
+    for (const auto& row : table.rows) text += fmt::format("{}\n", fmt::join(row, ","));
+    write_atomically(folder / fmt::format("{}{}.csv", profile_prefix, name), text);
+}
+
+MetricsFile::MetricsFile(const fs::path& path, const std::vector<std::string>& columns)
+    : path_(path), columns_(columns.size()), stream_(path)
+{
+    write_line(header_line(columns));
+}
+
+MetricsFile::MetricsFile(const fs::path& path, const std::vector<std::string>& columns, std::uint64_t size)
+    : path_(path), columns_(columns.size()), size_(size)
+{
+    std::error_code error;
+    const std::uintmax_t there = fs::file_size(path, error);
+    if (error) throw InputError(fmt::format("{}: the run cannot go on without it: {}", path.string(), error.message()));
+    std::string header;
+    std::getline(std::ifstream(path), header);
+    if (there < size || header != header_line(columns))
+        throw InputError(fmt::format("{}: the file is not as the run left it", path.string()));
+    fs::resize_file(path, size, error);
+    if (error) refuse_output(path, error.message());
+    stream_.open(path, std::ios::app);
+    if (!stream_) refuse_output(path, std::strerror(errno));
+}
+
+void MetricsFile::add_row(const std::vector<double>& values)
+{
+    assert(values.size() == columns_);
+    write_line(fmt::format("{}", fmt::join(values, ",")));
+}
+
+void MetricsFile::sync()
+{
+    // fsync brings what any descriptor of the file has written
+    const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) refuse_output(path_, std::strerror(errno));
+    const int failure = ::fsync(descriptor) == 0 ? 0 : errno;
+    ::close(descriptor);
+    if (failure != 0) refuse_output(path_, std::strerror(failure));
+}
+
+void MetricsFile::write_line(const std::string& line)
+{
+    stream_ << line << '\n' << std::flush;
+    if (!stream_) refuse_output(path_, std::strerror(errno));
+    size_ += line.size() + 1;
+}
+
+} // namespace talus

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/sensors/sensor.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace talus
+{
+
+/// Makes the output folder of a run and marks it as Talus's own by writing scene.resolved.toml into it first.
+/// @param force replace the files of a run of Talus that the folder holds (others in it stay); a non-empty folder
+///   without scene.resolved.toml is never touched
+/// @throws InputError where the folder may not be used, OutputError where it cannot be written
+void make_run_folder(const std::filesystem::path& folder, const std::string& resolved_scene, bool force);
+
+/// Asks beforehand whether a file can be written later, so that nothing is computed in vain.
+/// @throws OutputError where the path is a folder, or its folder is not there or may not be written
+void require_writable(const std::filesystem::path& path);
+
+/// Writes a whole file at once: to a temporary name, flushed to the disk, then renamed.
+/// @throws OutputError
+void write_atomically(const std::filesystem::path& path, std::string_view text);
+
+/// The same for a file in parts, one after the other.
+void write_atomically(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
+
+/// A name with its unit, as columns are called: mass_flow_kg_per_s.
+std::string column_name(const std::string& name, const std::string& unit);
+
+/// Writes the table of a sensor into the run's folder as profile_NAME.csv: names with units, then a row a line.
+/// @throws OutputError
+void write_table(const std::filesystem::path& folder, const std::string& name, const Table& table);
+
+/// metrics.csv: a header of names with units, then a row a sample, flushed at once.
+class MetricsFile
+{
+public:
+    /// @param columns names with units
+    /// @throws OutputError
+    MetricsFile(const std::filesystem::path& path, const std::vector<std::string>& columns);
+
+    /// Goes on with the file of a run that is resumed.
+    /// @param size to which the file is cut back [B]
+    /// @throws InputError where the file is not the one that was left, OutputError
+    MetricsFile(const std::filesystem::path& path, const std::vector<std::string>& columns, std::uint64_t size);
+
+    /// @pre one value for each column
+    /// @throws OutputError, at full disk too
+    void add_row(const std::vector<double>& values);
+
+    /// Brings the rows to the disk, so that a checkpoint may count on them.
+    /// @throws OutputError
+    void sync();
+
+    std::uint64_t size() const { return size_; } ///< of the file [B]
+
+private:
+    std::filesystem::path path_;
+    std::size_t columns_;
+    std::uint64_t size_ = 0;
+    std::ofstream stream_;
+
+    void write_line(const std::string& line);
+};
+
+} // namespace talus

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/run/summary.hpp"
+
+#include "io/run/run_files.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace talus
+{
+namespace
+{
+
+using Json = nlohmann::ordered_json; // it writes numbers that are not finite as null
+
+const char* kind_name(Incident::Kind kind)
+{
+    switch (kind) {
+    case Incident::Kind::escaped:
+        return "escaped";
+    case Incident::Kind::not_a_number:
+        return "not_a_number";
+    case Incident::Kind::blow_up:
+        return "blow_up";
+    case Incident::Kind::pressed:
+        return "pressed";
+    }
+    return "";
+}
+
+const char* sentence_of(Incident::Kind kind)
+{
+    switch (kind) {
+    case Incident::Kind::escaped:
+        return "left the world where there is no outlet";
+    case Incident::Kind::not_a_number:
+        return "has a position or velocity that is not a number";
+    case Incident::Kind::blow_up:
+        return "moves faster than anything in this scene can";
+    case Incident::Kind::pressed:
+        return "is pressed so that no motion obeys its contacts";
+    }
+    return "";
+}
+
+/// "'floor' and 'lid'", "0, 1, 2 and 7 more": as many as told, the others by their number.
+std::string enumeration(const std::vector<std::string>& names)
+{
+    constexpr std::size_t told = 4;
+    std::vector<std::string> parts(
+        names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(told, names.size())));
+    if (names.size() > told) parts.push_back(fmt::format("{} more", names.size() - told));
+    if (parts.size() < 2) return parts.empty() ? "" : parts.front();
+    const std::string last = parts.back();
+    parts.pop_back();
+    return fmt::format("{} and {}", fmt::join(parts, ", "), last);
+}
+
+std::string describe_press(const Incident& incident, const std::vector<std::string>& wall_names)
+{
+    std::vector<std::string> with, walls;
+    for (const auto id : incident.spheres)
+        if (id != incident.id) with.push_back(std::to_string(id));
+    for (const auto wall : incident.walls)
+        walls.push_back(fmt::format("'{}'", wall_names[static_cast<std::size_t>(wall)]));
+    const auto& x = incident.position;
+    return fmt::format("sphere {} {}: it overlaps by {:.2g} m at ({:.4g}, {:.4g}, {:.4g}) m, and more with every step, "
+                       "{}between {}",
+        incident.id, sentence_of(incident.kind), incident.overlap, x.x(), x.y(), x.z(),
+        with.empty() ? "" : fmt::format("with {} {} ", with.size() == 1 ? "sphere" : "spheres", enumeration(with)),
+        walls.empty() ? "spheres"
+                      : fmt::format("{} {}", walls.size() == 1 ? "the wall" : "the walls", enumeration(walls)));
+}
+
+Json to_json(const Incident& incident, const std::vector<std::string>& wall_names)
+{
+    const auto& x = incident.position;
+    Json json = {{"kind", kind_name(incident.kind)}, {"id", incident.id}, {"position", {x.x(), x.y(), x.z()}},
+        {"speed", incident.speed}, {"last_wall", nullptr}, {"sentence", describe(incident, wall_names)}};
+    if (incident.last_wall >= 0) json["last_wall"] = wall_names[static_cast<std::size_t>(incident.last_wall)];
+    if (incident.kind != Incident::Kind::pressed) return json;
+    json["spheres"] = incident.spheres;
+    json["walls"] = Json::array();
+    for (const auto wall : incident.walls) json["walls"].push_back(wall_names[static_cast<std::size_t>(wall)]);
+    return json;
+}
+
+Json incidents_json(const RunSummary& summary)
+{
+    Json json = Json::array();
+    for (const Incident& incident : summary.incidents) json.push_back(to_json(incident, summary.wall_names));
+    return json;
+}
+
+Json to_json(const ParticleLedger& ledger)
+{
+    return {{"inserted", ledger.inserted}, {"inside", ledger.inside}, {"left", ledger.left},
+        {"escaped", ledger.escaped}, {"closes", ledger.closes()}};
+}
+
+template <class Value> Json or_null(const std::optional<Value>& value)
+{
+    return value ? Json(*value) : Json();
+}
+
+Json to_json(const std::vector<PourSummary>& pours)
+{
+    Json json = Json::array();
+    for (const PourSummary& pour : pours)
+        json.push_back({{"name", pour.name}, {"asked", or_null(pour.asked)}, {"asked_mass", or_null(pour.asked_mass)},
+            {"poured", pour.poured}, {"poured_mass", pour.poured_mass}, {"shortfall", pour.shortfall}});
+    return json;
+}
+
+Json to_json(const std::vector<SensorSummary>& sensors)
+{
+    Json json = Json::object();
+    for (const SensorSummary& sensor : sensors) {
+        Json& quantities = json[sensor.name] = Json::object();
+        for (const Measurement& m : sensor.results)
+            quantities[m.name] = {{"value", m.value}, {"spread", m.spread}, {"unit", m.unit}};
+    }
+    return json;
+}
+
+Json to_json(const ErrorSummary& error)
+{
+    return {{"residual",
+                {{"tolerance", error.tolerance}, {"mean", error.mean_residual}, {"percentile_95", error.residual_95},
+                    {"worst", error.worst_residual}, {"steps_at_cap", error.steps_at_cap}}},
+        {"overlap_d",
+            {{"mean", error.mean_overlap}, {"worst", error.worst_overlap}, {"worst_at", error.worst_overlap_time}}},
+        {"long_moves", error.long_moves}, {"sub_steps", {{"steps", error.split_steps}, {"most", error.most_sub_steps}}},
+        {"cone_violation", error.cone_violation},
+        {"energy", {{"lost", error.energy_lost}, {"gained", error.energy_gained}, {"put_in", error.energy_put_in}}}};
+}
+
+Json to_json(const TimingSummary& timing)
+{
+    Json phases = Json::object();
+    for (const PhaseTime& phase : timing.phases) phases[phase.name] = {{"wall", phase.wall}, {"cpu", phase.cpu}};
+    return {{"wall", timing.wall}, {"cpu", timing.cpu}, {"phases", phases}, {"contact_updates", timing.contact_updates},
+        {"contact_updates_per_cpu_second", timing.contact_update_rate}};
+}
+
+} // namespace
+
+std::string describe(const Incident& incident, const std::vector<std::string>& wall_names)
+{
+    if (incident.kind == Incident::Kind::pressed) return describe_press(incident, wall_names);
+    const auto& x = incident.position;
+    if (incident.of_piston())
+        return fmt::format("the wall '{}' {}: its middle is at ({:.4g}, {:.4g}, {:.4g}) m with {:.4g} m/s",
+            wall_names[static_cast<std::size_t>(incident.last_wall)], sentence_of(incident.kind), x.x(), x.y(), x.z(),
+            incident.speed);
+    const std::string touched = incident.last_wall < 0 ? "it has touched no wall"
+                                                       : fmt::format("the wall it touched last is '{}'",
+                                                             wall_names[static_cast<std::size_t>(incident.last_wall)]);
+    return fmt::format("sphere {} {}: it is at ({:.4g}, {:.4g}, {:.4g}) m with {:.4g} m/s, and {}", incident.id,
+        sentence_of(incident.kind), x.x(), x.y(), x.z(), incident.speed, touched);
+}
+
+void write_summary(const std::filesystem::path& path, const RunSummary& summary)
+{
+    const char* status = !summary.incidents.empty() ? "failed" : summary.interrupted ? "interrupted" : "done";
+    const Json json = {{"status", status}, {"incidents", incidents_json(summary)}, {"version", summary.version},
+        {"scene", summary.scene}, {"title", summary.title}, {"seed", summary.seed}, {"threads", summary.threads},
+        {"time", {{"simulated", summary.simulated_time}, {"step", summary.time_step}, {"steps", summary.steps}}},
+        {"ledger", to_json(summary.ledger)}, {"pours", to_json(summary.pours)}, {"sensors", to_json(summary.sensors)},
+        {"error", to_json(summary.error)}, {"timing", to_json(summary.timing)}};
+    // a title may hold bytes that are not UTF-8 text; they must not cost the summary of a finished run
+    write_atomically(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+} // namespace talus

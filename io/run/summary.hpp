@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/sensors/sensor.hpp"
+#include "core/step/time_step.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+
+/// Where every sphere that ever came in has gone.
+struct ParticleLedger {
+    std::int64_t inserted = 0; ///< there at the start, and poured
+    std::int64_t inside = 0;
+    std::int64_t left = 0;    ///< through an outlet
+    std::int64_t escaped = 0; ///< left the world where there is no outlet
+
+    bool closes() const { return inserted == inside + left + escaped; }
+};
+
+struct SensorSummary {
+    std::string name;
+    std::vector<Measurement> results;
+};
+
+struct PourSummary {
+    std::string name;
+    std::optional<std::int64_t> asked; ///< spheres in all, by the scene, where it gives a count
+    std::optional<double> asked_mass;  ///< of all spheres [kg], where it gives a mass
+    std::int64_t poured = 0;           ///< spheres that came in
+    double poured_mass = 0.0;          ///< their mass [kg]
+    std::string shortfall;             ///< why fewer came in than asked; empty where none is missing
+};
+
+/// How wrong the run may be. Overlaps are in mean diameters d.
+struct ErrorSummary {
+    double tolerance = 0.0; ///< on the residual
+    double mean_residual = 0.0;
+    double residual_95 = 0.0; ///< 95 % of the steps reached less
+    double worst_residual = 0.0;
+    std::int64_t steps_at_cap = 0;   ///< ended by max_sweeps, unconverged
+    double mean_overlap = 0.0;       ///< over the overlapping contacts of all steps [d]
+    double worst_overlap = 0.0;      ///< [d]
+    double worst_overlap_time = 0.0; ///< when that was [s]
+    std::int64_t long_moves = 0;     ///< moves of a sphere by more than 0.1 d in a step
+    std::int64_t split_steps = 0;    ///< that were made in several for the sake of fast spheres
+    int most_sub_steps = 1;          ///< of a step
+    double cone_violation = 0.0;     ///< worst |λ_t| − μ λ_n [N s]
+    double energy_lost = 0.0;   ///< kinetic + potential + stored in contacts: sum of its falls from step to step [J]
+    double energy_gained = 0.0; ///< sum of its rises, which nothing put in [J]
+    double energy_put_in = 0.0; ///< work of moving walls, and of gravity along periodic axes [J]
+};
+
+struct PhaseTime {
+    std::string name;
+    double wall = 0.0; ///< [s]
+    double cpu = 0.0;  ///< [s], of all threads
+};
+
+struct TimingSummary {
+    double wall = 0.0;
+    double cpu = 0.0;
+    std::vector<PhaseTime> phases;    ///< they add up to the whole
+    double contact_updates = 0.0;     ///< contacts × sweeps, over all steps
+    double contact_update_rate = 0.0; ///< contact updates per CPU second of the sweeps [1/s]
+};
+
+/// All that is left to say when a run is over.
+struct RunSummary {
+    std::vector<Incident> incidents;     ///< why it failed; empty where it is done
+    bool interrupted = false;            ///< by a signal, after a checkpoint
+    std::vector<std::string> wall_names; ///< by which an incident names the wall touched last
+    std::string version;                 ///< of Talus
+    std::string scene;                   ///< its name
+    std::string title;
+    std::int64_t seed = 0;
+    int threads = 0;
+    double simulated_time = 0.0; ///< [s]
+    double time_step = 0.0;      ///< [s]
+    std::int64_t steps = 0;
+    ParticleLedger ledger;
+    std::vector<PourSummary> pours;
+    std::vector<SensorSummary> sensors;
+    ErrorSummary error;
+    TimingSummary timing;
+};
+
+/// The incident as one sentence, with the sphere's id, its place, its speed and the wall that it touched last.
+std::string describe(const Incident& incident, const std::vector<std::string>& wall_names);
+
+/// Writes summary.json; its keys are documented in io/README.md.
+/// @throws OutputError
+void write_summary(const std::filesystem::path& path, const RunSummary& summary);
+
+} // namespace talus

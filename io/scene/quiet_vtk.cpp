@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/scene/quiet_vtk.hpp"
+
+#include "io/text/toml_value.hpp"
+
+#include <vtkObjectFactory.h>
+
+#include <string_view>
+
+namespace talus
+{
+
+vtkStandardNewMacro(VtkErrors);
+
+void VtkErrors::DisplayErrorText(const char* text)
+{
+    if (first_.empty()) first_ = text;
+}
+
+QuietVtk::QuietVtk() : window_(vtkOutputWindow::GetInstance()), verbosity_(vtkLogger::GetCurrentVerbosityCutoff())
+{
+    vtkOutputWindow::SetInstance(errors_);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+}
+
+QuietVtk::~QuietVtk()
+{
+    vtkLogger::SetStderrVerbosity(verbosity_);
+    vtkOutputWindow::SetInstance(window_);
+}
+
+std::string QuietVtk::sentence() const
+{
+    constexpr std::string_view end_of_place = "): ";
+    const std::string& first = errors_->first();
+    const std::size_t place = first.find(end_of_place);
+    std::string text = one_line(first.substr(place == std::string::npos ? 0 : place + end_of_place.size()));
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text;
+}
+
+} // namespace talus

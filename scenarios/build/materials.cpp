@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scenarios/build/materials.hpp"
+
+#include "scenarios/build/checks.hpp"
+#include "scenarios/build/mixture.hpp"
+
+#include <cmath>
+#include <set>
+
+namespace talus
+{
+namespace
+{
+
+/// Which pairs of materials have a law.
+using GivenPairs = std::vector<std::uint8_t>;
+
+/// Reads the law of one [[contact]] into both of its places.
+void add_law(Materials& materials, GivenPairs& given, const scene::Scene& scene, std::size_t index)
+{
+    const auto& contact = scene.contact[index];
+    const auto key = key_path("contact", index, "between");
+    if (contact.between.size() != 2)
+        throw SceneError(key, "'between' names two materials, here are " + std::to_string(contact.between.size()));
+    const auto n = materials.list.size();
+    const auto a = static_cast<std::size_t>(material_index(materials, contact.between[0], key));
+    const auto b = static_cast<std::size_t>(material_index(materials, contact.between[1], key));
+    if (given[a * n + b])
+        throw SceneError(
+            key, "the contact of " + contact.between[0] + " and " + contact.between[1] + " is given twice");
+    if (scene.solver.stabilisation == "projected" && std::isfinite(contact.stiffness))
+        throw SceneError(key_path("contact", index, "stiffness"),
+            "a stiffness goes with stabilisation \"matched\" only; with \"projected\" contacts are rigid");
+    given[a * n + b] = given[b * n + a] = 1;
+    materials.laws[a * n + b] = materials.laws[b * n + a] = {
+        contact.friction, contact.restitution, contact.rolling_friction, contact.stiffness};
+}
+
+std::set<std::string> set_of(const std::vector<std::string>& names)
+{
+    return {names.begin(), names.end()};
+}
+
+/// Every pair that can meet must have a law: the materials of spheres with each other and with those of walls.
+void require_laws(const Materials& materials, const GivenPairs& given, const scene::Scene& scene)
+{
+    std::set<std::string> of_spheres;
+    for (const auto& fill : scene.fill) of_spheres.merge(set_of(materials_in(fill)));
+    for (const auto& pour : scene.pour) of_spheres.merge(set_of(materials_in(pour)));
+    std::set<std::string> of_all = of_spheres;
+    for (const auto& wall : scene.wall) of_all.insert(wall.material);
+    const auto n = materials.list.size();
+    for (std::size_t a = 0; a < n; ++a)
+        for (std::size_t b = 0; b < n; ++b) {
+            const auto& name_a = materials.list[a].name;
+            const auto& name_b = materials.list[b].name;
+            if (of_spheres.count(name_a) && of_all.count(name_b) && !given[a * n + b])
+                throw SceneError(
+                    "contact", "no [[contact]] between " + name_a + " and " + name_b + ", which can touch");
+        }
+}
+
+} // namespace
+
+Materials build_materials(const scene::Scene& scene)
+{
+    Materials materials;
+    for (const auto& material : scene.materials) materials.list.push_back({material.name, material.density});
+    materials.laws.resize(materials.list.size() * materials.list.size());
+    GivenPairs given(materials.laws.size(), 0);
+    for (std::size_t k = 0; k < scene.contact.size(); ++k) add_law(materials, given, scene, k);
+    require_laws(materials, given, scene);
+    return materials;
+}
+
+int material_index(const Materials& materials, const std::string& name, const std::string& key)
+{
+    return static_cast<int>(index_of(materials.list, "material", name, key));
+}
+
+ModelledPhysics needed_physics(const scene::Scene& scene, const Materials& materials)
+{
+    ModelledPhysics physics;
+    for (const auto& law : materials.laws) {
+        physics.friction = physics.friction || law.friction > 0.0 || law.rolling_friction > 0.0;
+        physics.rolling = physics.rolling || law.rolling_friction > 0.0;
+        physics.restitution = physics.restitution || law.restitution > 0.0;
+    }
+    if (physics.rolling && !scene.world.rotation)
+        throw SceneError("world.rotation", "spheres that do not turn have no rolling resistance: leave out "
+                                           "'rolling_friction', or let them turn");
+    physics.spin = physics.friction && scene.world.rotation;
+    for (const auto& wall : scene.wall) {
+        physics.moving_walls = physics.moving_walls || !wall.motion.empty();
+        physics.pistons = physics.pistons || std::isfinite(wall.mass);
+    }
+    return physics;
+}
+
+} // namespace talus

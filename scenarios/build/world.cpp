@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scenarios/build/world.hpp"
+
+#include "scenarios/build/checks.hpp"
+#include "scenarios/build/mixture.hpp"
+#include "scenarios/build/region.hpp"
+#include "scenarios/build/spheres.hpp"
+#include "scenarios/scene_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+
+void find_diameters(Model& model, const scene::Scene& scene)
+{
+    double sum = 0.0, count = 0.0;
+    model.min_diameter = infinity;
+    const auto add = [&](double min, double max, double mean, double number) {
+        if (number == 0.0) return;
+        model.min_diameter = std::min(model.min_diameter, min);
+        model.max_diameter = std::max(model.max_diameter, max);
+        sum += mean * number;
+        count += number;
+    };
+    const auto add_mixture = [&](const Mixture& mixture, double number) {
+        add(mixture.min_diameter(), mixture.max_diameter(), mixture.mean_diameter(), number);
+    };
+    for (std::size_t k = 0; k < scene.fill.size(); ++k) {
+        const auto& fill = scene.fill[k];
+        const auto key = table_path("fill", k);
+        if (fill.arrangement == "file")
+            for (const double radius : radii_from_file(fill, key)) add(2.0 * radius, 2.0 * radius, 2.0 * radius, 1.0);
+        else
+            add_mixture(build_mixture(fill, key, model.materials), static_cast<double>(fill.count));
+    }
+    for (std::size_t k = 0; k < scene.pour.size(); ++k) {
+        const Pour source = build_source(scene.pour[k], table_path("pour", k), model.materials);
+        add_mixture(source.mixture, expected_count(source, model.materials));
+    }
+    if (count == 0.0)
+        throw SceneError("fill", "the scene has no spheres: give a [[fill]] or a [[pour]] with a count above 0");
+    model.mean_diameter = sum / count;
+}
+
+Periodicity build_periodicity(const scene::Scene& scene, double max_diameter)
+{
+    constexpr double shortest = 4.0; // diameters: a sphere must not meet two images of another
+    Periodicity periodicity;
+    for (const auto& name : scene.world.periodic) {
+        const int d = name[0] - 'x';
+        const double length = scene.world.max[d] - scene.world.min[d];
+        if (!std::isfinite(length))
+            throw SceneError("world.periodic", "along the periodic axis " + name + " 'min' and 'max' must be given");
+        if (length < shortest * max_diameter)
+            throw SceneError("world.periodic",
+                "along the periodic axis " + name + " the world must be at least four diameters of the largest sphere");
+        periodicity.origin[d] = scene.world.min[d];
+        periodicity.length[d] = length;
+    }
+    if (periodicity.along(0) && periodicity.along(1) && periodicity.along(2))
+        throw SceneError("world.periodic", "two axes may be periodic, not all three");
+    return periodicity;
+}
+
+namespace
+{
+
+/// Round all places of a wall during the run; a plane has none and gives an empty box.
+Box swept_bounds(const Wall& wall, double duration)
+{
+    const Box still = bounds(wall.shape);
+    if (wall.motion.empty() || still.empty()) return still;
+    constexpr int samples = 200;
+    Box swept;
+    for (int k = 0; k <= samples; ++k) swept.extend(placed(pose_at(wall.motion, duration * k / samples), still));
+    return swept;
+}
+
+/// Something that lies in the scene, and the key that says where.
+struct Content {
+    std::string key;
+    Box bounds;
+};
+
+/// Walls, on their ways so far, fills, pours and outlets.
+std::vector<Content> contents(const scene::Scene& scene, const Model& model, double duration)
+{
+    std::vector<Content> list;
+    for (std::size_t k = 0; k < model.walls.size(); ++k)
+        if (const Box b = swept_bounds(model.walls[k], duration); !b.empty())
+            list.push_back({key_path("wall", k, "name"), b});
+    for (std::size_t k = 0; k < scene.fill.size(); ++k) {
+        const auto& fill = scene.fill[k];
+        if (fill.arrangement != "file") {
+            const std::string key = key_path("fill", k, "region");
+            list.push_back({key, build_region(fill.region, key).bounds()});
+        }
+        for (const Vec3& position : fill.spheres.positions)
+            list.push_back({key_path("fill", k, "file"), Box{position, position}});
+    }
+    for (std::size_t k = 0; k < scene.pour.size(); ++k) {
+        const std::string key = key_path("pour", k, "region");
+        list.push_back({key, build_region(scene.pour[k].region, key).bounds()});
+    }
+    for (std::size_t k = 0; k < model.outlets.size(); ++k)
+        list.push_back({key_path("outlet", k, "region"), model.outlets[k].bounds()});
+    return list;
+}
+
+Box around(const std::vector<Content>& list)
+{
+    Box box;
+    for (const Content& content : list) box.extend(content.bounds);
+    return box;
+}
+
+/// Beyond, places are told apart by 1e-7 diameters at best, and cells could no more be counted.
+constexpr double farthest_place = 1e9; ///< diameters
+
+void require_within_reach(const std::vector<Content>& list, double diameter)
+{
+    for (const Content& content : list) {
+        const double farthest = content.bounds.min.cwiseAbs().cwiseMax(content.bounds.max.cwiseAbs()).maxCoeff();
+        if (farthest > farthest_place * diameter)
+            throw SceneError(content.key, "it reaches more than 1e9 diameters from the origin, where numbers are too "
+                                          "coarse for contacts; bring the scene nearer");
+    }
+}
+
+} // namespace
+
+Vec3 scene_corner(const scene::Scene& scene, const Model& model)
+{
+    const auto list = contents(scene, model, 0.0);
+    require_within_reach(list, model.mean_diameter);
+    return list.empty() ? Vec3::Zero() : around(list).min;
+}
+
+Box build_world(const scene::Scene& scene, const Model& model)
+{
+    if (!((scene.world.min.array() < scene.world.max.array()).all()))
+        throw SceneError("world.max", "the world is empty: every coordinate of 'min' must be below that of 'max'");
+    Box box = around(contents(scene, model, scene.time.duration)).grown(5.0 * model.max_diameter);
+    for (int d = 0; d < 3; ++d) {
+        if (model.gravity[d] < 0.0) box.max[d] = infinity;
+        if (model.gravity[d] > 0.0) box.min[d] = -infinity;
+        if (std::isfinite(scene.world.min[d])) box.min[d] = scene.world.min[d];
+        if (std::isfinite(scene.world.max[d])) box.max[d] = scene.world.max[d];
+    }
+    return box;
+}
+
+} // namespace talus

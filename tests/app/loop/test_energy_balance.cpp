@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/loop/energy_balance.hpp"
+
+#include <catch2/catch.hpp>
+
+using talus::EnergyBalance;
+using talus::StepReport;
+
+namespace
+{
+
+StepReport report(double kinetic, double potential, double contact_at_beginning)
+{
+    StepReport r;
+    r.kinetic_energy = kinetic;
+    r.potential_energy = potential;
+    r.contact_energy = contact_at_beginning;
+    return r;
+}
+
+} // namespace
+
+TEST_CASE("energy that goes into the contacts and comes back is neither lost nor gained", "[app][energy]")
+{
+    // 1 J in all at the end of every step; the contacts' share of it is told one step later
+    EnergyBalance balance;
+    balance.add(report(1.0, 0.0, 0.0), false);
+    balance.add(report(0.4, 0.0, 0.0), true);
+    balance.add(report(0.7, 0.0, 0.6), true);
+    balance.add(report(1.0, 0.0, 0.3), true);
+    balance.add(report(1.0, 0.0, 0.0), true);
+    CHECK(balance.lost() == Approx(0.0).margin(1e-15));
+    CHECK(balance.gained() == Approx(0.0).margin(1e-15));
+}
+
+TEST_CASE("falls and rises of the energy are summed apart", "[app][energy]")
+{
+    EnergyBalance balance;
+    for (const double total : {5.0, 4.0, 4.5, 1.0, 1.0, 1.25})
+        balance.add(report(0.25 * total, 0.75 * total, 0.0), true);
+    balance.add(report(0.0, 0.0, 0.0), true); // the energy at the end of a step is known with the next
+    CHECK(balance.lost() == Approx(1.0 + 3.5));
+    CHECK(balance.gained() == Approx(0.5 + 0.25));
+}
+
+TEST_CASE("what loads and walls put in is no gain", "[app][energy]")
+{
+    EnergyBalance balance;
+    balance.add(report(0.0, 0.0, 0.0), true);
+    for (const double energy : {2.0, 5.0, 5.0}) {
+        StepReport r = report(energy, 0.0, 0.0);
+        r.wall_work = energy == 2.0 ? 1.5 : 0.0;
+        r.load_work = energy == 2.0 ? 0.5 : balance.put_in() < 4.0 ? 3.0 : 0.0;
+        balance.add(r, true);
+    }
+    CHECK(balance.put_in() == Approx(5.0));
+    CHECK(balance.gained() == 0.0);
+    CHECK(balance.lost() == 0.0);
+}
+
+TEST_CASE("what spheres bring in and take away is not the steps' doing", "[app][energy]")
+{
+    EnergyBalance balance;
+    balance.add(report(1.0, 0.0, 0.0), false);
+    balance.add(report(1.0, 0.0, 0.0), true);
+    balance.add(report(9.0, 0.0, 0.0), false);
+    balance.add(report(9.0, 0.0, 0.0), true);
+    balance.add(report(2.0, 0.0, 0.0), false);
+    balance.add(report(2.0, 0.0, 0.0), true);
+    balance.add(report(2.0, 0.0, 0.0), true);
+    CHECK(balance.lost() == 0.0);
+    CHECK(balance.gained() == 0.0);
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/loop/step_watch.hpp"
+
+#include <catch2/catch.hpp>
+
+using Catch::Matchers::Contains;
+using talus::Model;
+using talus::StepReport;
+using talus::StepWatch;
+
+namespace
+{
+
+Model model()
+{
+    Model model;
+    model.mean_diameter = model.min_diameter = 0.01;
+    model.time_step = 1e-3;
+    return model;
+}
+
+/// All that is said in so many steps that went like this one.
+std::string said(StepWatch& watch, const StepReport& report, int steps)
+{
+    std::string text;
+    for (int k = 0; k < steps; ++k) text += watch.warning_after(report);
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("long moves are told once, in the tenth step that has them, with a step that would do", "[app][watch]")
+{
+    const Model m = model();
+    StepWatch watch(m);
+    StepReport fast;
+    fast.long_moves = 3;
+    fast.fastest_speed = 2.7;
+    CHECK(said(watch, StepReport(), 1000).empty());
+    CHECK(said(watch, fast, 9).empty());
+    CHECK_THAT(said(watch, fast, 1), Contains("--set time.step=0.00037")); // 0.1 d / 2.7 m/s, rounded down
+    CHECK(said(watch, fast, 1000).empty());
+}
+
+TEST_CASE("deep overlap is told once where it lasts, with a step that makes contacts stiff enough", "[app][watch]")
+{
+    const Model m = model();
+    StepWatch watch(m);
+    StepReport deep;
+    deep.worst_overlap = 8e-4; // 8 % d
+    CHECK(said(watch, deep, 199).empty());
+    CHECK(said(watch, StepReport(), 1).empty()); // it has passed
+    CHECK(said(watch, deep, 199).empty());
+    CHECK_THAT(said(watch, deep, 1), Contains("8 % d") && Contains("--set time.step=0.0005")); // a quarter of it
+    CHECK(said(watch, deep, 1000).empty());
+}

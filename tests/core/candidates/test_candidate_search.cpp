@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/candidates/candidate_search.hpp"
+#include "tests/support/world.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+
+using namespace talus;
+using namespace talus::test;
+
+namespace
+{
+
+constexpr double edge = 0.06;
+
+/// A closed box of beads without gravity that fly about and bounce back as fast as they came, an inclined plate of two
+/// triangles in it, and a funnel.
+World agitated_beads(double speed, double size_ratio, std::uint64_t seed)
+{
+    SolverSettings solver = production_settings(Stabilisation::projected);
+    World world = make_world({.friction = 0.5, .restitution = 1.0}, solver, 1e-4);
+    world.model.gravity = Vec3(0, 0, -1e-3);
+    world.add_wall(box_panels({Vec3::Zero(), Vec3::Constant(edge)}, {}));
+    world.add_wall(make_mesh(
+        {Vec3(0, 0, 0), Vec3(edge, 0, 0.02), Vec3(edge, edge, 0.02), Vec3(0, edge, 0)}, {{0, 1, 2}, {0, 2, 3}}));
+    world.add_wall(Cone{Vec3(0.03, 0.03, 0.035), Vec3::UnitZ(), 0.01, 0.028, 0.02});
+    Random random(seed);
+    const auto random_vector = [&] {
+        return Vec3(2 * uniform(random) - 1, 2 * uniform(random) - 1, 2 * uniform(random) - 1);
+    };
+    constexpr double distance = 0.0085;
+    for (double x = 0.005; x < edge - 0.004; x += distance)
+        for (double y = 0.005; y < edge - 0.004; y += distance)
+            for (double z = 0.027; z < edge - 0.004; z += distance) {
+                const double radius = 0.004 / (1.0 + (size_ratio - 1.0) * uniform(random));
+                world.add_sphere(Vec3(x, y, z), speed * random_vector(), Vec3::Zero(), radius);
+            }
+    return world;
+}
+
+using Pairs = std::set<std::pair<std::int32_t, std::int32_t>>;
+
+Pairs listed_pairs(const ContactNetwork& network)
+{
+    Pairs pairs;
+    for (const auto& pair : network.pairs) pairs.insert({pair.a, pair.b});
+    return pairs;
+}
+
+/// How many spheres are within reach of each other; requires that all of these are listed.
+std::size_t check_pairs(const World& world)
+{
+    const auto& state = world.state;
+    const double reach = open_contact_reach * world.model.min_diameter;
+    const auto listed = listed_pairs(world.contacts);
+    REQUIRE(listed.size() == world.contacts.pairs.size()); // each once
+    std::size_t within = 0;
+    for (std::size_t i = 0; i < state.count(); ++i)
+        for (std::size_t j = i + 1; j < state.count(); ++j) {
+            const double gap = (state.position[i] - state.position[j]).norm() - state.radius(i) - state.radius(j);
+            if (gap > reach) continue;
+            ++within;
+            if (!listed.count({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)}))
+                FAIL("spheres " << i << " and " << j << " with gap " << gap << " are not listed");
+        }
+    return within;
+}
+
+/// Likewise for the patches of the walls.
+std::size_t check_walls(const World& world)
+{
+    const auto& state = world.state;
+    const double reach = open_contact_reach * world.model.min_diameter;
+    std::set<std::tuple<std::int32_t, std::int32_t, std::int32_t>> listed;
+    for (const auto& pair : world.contacts.wall_pairs)
+        for (std::uint32_t k = 0; k < pair.patches; ++k)
+            listed.insert({pair.sphere, pair.wall, world.contacts.patches[pair.first + k]});
+    std::size_t within = 0;
+    for (std::size_t i = 0; i < state.count(); ++i)
+        for (std::size_t w = 0; w < world.model.walls.size(); ++w) {
+            const auto& shape = world.model.walls[w].shape;
+            for (std::size_t patch = 0; patch < patch_count(shape); ++patch) {
+                const double gap = nearest_point(shape, patch, state.position[i]).distance - state.radius(i);
+                if (gap > reach) continue;
+                ++within;
+                if (!listed.count(
+                        {static_cast<std::int32_t>(i), static_cast<std::int32_t>(w), static_cast<std::int32_t>(patch)}))
+                    FAIL("sphere " << i << " and patch " << patch << " of wall " << w << " with gap " << gap
+                                   << " are not listed");
+            }
+        }
+    return within;
+}
+
+/// What was within reach in all steps of a checked run.
+struct Seen {
+    std::size_t pairs = 0;
+    std::size_t patches = 0;
+};
+
+/// Steps, and checks the list each time before it is used.
+void run_checked(World& world, int steps, Seen& seen)
+{
+    for (int k = 0; k < steps; ++k) {
+        world.update_candidates();
+        seen.pairs += check_pairs(world);
+        seen.patches += check_walls(world);
+        world.step();
+        REQUIRE(world.report.incidents.empty());
+    }
+}
+
+} // namespace
+
+TEST_CASE("every sphere and wall within reach is listed at every step", "[candidate_search]")
+{
+    const double speed = GENERATE(0.3, 3.0, 8.0); // 8 m/s is a tenth of a diameter in a step
+    const double size_ratio = GENERATE(1.0, 3.0);
+    CAPTURE(speed, size_ratio);
+    auto world = agitated_beads(speed, size_ratio, 1);
+    Seen seen;
+    run_checked(world, 600, seen);
+    CHECK(seen.pairs > 50);
+    CHECK(seen.patches > 100);
+}
+
+TEST_CASE("every sphere and wall within reach is listed while a heap falls and settles", "[candidate_search]")
+{
+    auto world = agitated_beads(0.3, 2.0, 4);
+    world.model.gravity = Vec3(0, 0, -9.81);
+    for (auto& law : world.model.materials.laws) law.restitution = 0.0;
+    Seen seen;
+    run_checked(world, 1500, seen);
+    CHECK(seen.pairs > 50 * 1500); // of 196 beads, most of which lie in a heap at the end
+    CHECK(seen.patches > 1500);
+}
+
+TEST_CASE("what creeps nearer is listed once it is within reach, from any distance and direction", "[candidate_search]")
+{
+    // In steps far shorter than the skin, so that the list is used for as long as it just holds.
+    constexpr double diameter = 2.0 * standard_radius, step = 0.001 * diameter;
+    const Vec3 direction = GENERATE(Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(1, 1, 0).normalized(),
+        Vec3(1, 1, 1).normalized(), Vec3(1, -5, 2).normalized());
+    const double gap = GENERATE(range(0, 90)) * 0.0033 * diameter;
+    CAPTURE(gap / diameter, direction.transpose());
+    World world = make_world({}, production_settings(Stabilisation::matched), 1e-4);
+    world.model.gravity.setZero();
+    world.add_sphere(Vec3::Zero());
+    const auto creep = [&](const Vec3& first, const Vec3& second) {
+        for (int k = 0; k * step < gap + 0.01 * diameter; ++k) {
+            world.update_candidates();
+            check_pairs(world);
+            check_walls(world);
+            world.state.position[0] += first;
+            if (world.state.count() > 1) world.state.position[1] += second;
+        }
+    };
+    SECTION("two spheres, both of which move")
+    {
+        world.add_sphere((diameter + gap) * direction);
+        creep(0.5 * step * direction, -0.5 * step * direction);
+    }
+    SECTION("two spheres, one of which moves")
+    {
+        world.add_sphere((diameter + gap) * direction);
+        creep(step * direction, Vec3::Zero());
+    }
+    SECTION("a sphere and a triangle")
+    {
+        const Vec3 across = any_perpendicular(direction), foot = (standard_radius + gap) * direction;
+        world.add_wall(make_mesh(
+            {foot - across - direction.cross(across), foot + across, foot + direction.cross(across)}, {{0, 1, 2}}));
+        creep(step * direction, Vec3::Zero());
+    }
+}
+
+TEST_CASE("spheres that come and go leave the list complete", "[candidate_search]")
+{
+    auto world = agitated_beads(3.0, 2.0, 2);
+    Seen seen;
+    for (int round = 0; round < 20; ++round) {
+        run_checked(world, 10, seen);
+        // Eight in nine stay, in reverse order; then a new one comes.
+        const auto old_count = static_cast<std::int32_t>(world.state.count());
+        std::vector<std::int32_t> new_index(world.state.count(), -1);
+        std::int32_t kept = 0;
+        for (std::int32_t i = old_count - 1; i >= 0; --i)
+            if (old_count < 30 || (i + round) % 9 != 0) new_index[static_cast<std::size_t>(i)] = kept++;
+        renumber_spheres(world.state, new_index, static_cast<std::size_t>(kept));
+        renumber_candidates(world.contacts, world.state, world.model, new_index);
+        world.add_sphere(Vec3(0.03, 0.03, 0.03), Vec3(1, 0, 0), Vec3::Zero(), 0.002);
+    }
+    CHECK(seen.pairs > 50);
+    CHECK(seen.patches > 100);
+}
+
+TEST_CASE("impulses stay with their pair when the list is rebuilt and renumbered", "[candidate_search]")
+{
+    // A row of beads that overlap their neighbours; contact i carries (i + 1, 0, 0) from the bead of lower index.
+    World world = make_world({.friction = 0.5}, production_settings(Stabilisation::matched), 1e-4);
+    for (int i = 0; i < 20; ++i) world.add_sphere(Vec3(0.0099 * i, 0, 0));
+    world.update_candidates();
+    const auto slot_of = [&](std::int32_t a, std::int32_t b) {
+        const auto& pairs = world.contacts.pairs;
+        const auto found = std::find(pairs.begin(), pairs.end(), IndexPair{std::min(a, b), std::max(a, b)});
+        REQUIRE(found != pairs.end());
+        return static_cast<std::size_t>(found - pairs.begin());
+    };
+    for (std::int32_t i = 0; i < 19; ++i) {
+        world.contacts.pair_carried.impulse[slot_of(i, i + 1)] = Vec3(i + 1, 0, 0);
+        world.contacts.pair_carried.touched[slot_of(i, i + 1)] = 1;
+    }
+    std::vector<std::int32_t> new_index(20);
+    for (std::int32_t i = 0; i < 20; ++i) new_index[static_cast<std::size_t>(i)] = (7 * i) % 20;
+    renumber_spheres(world.state, new_index, 20);
+    renumber_candidates(world.contacts, world.state, world.model, new_index);
+    for (auto& x : world.state.position) x.y() += 0.01; // all leave their boxes and are listed anew
+    CHECK(world.update_candidates() == 20);
+
+    for (std::int32_t i = 0; i < 19; ++i) {
+        const auto a = (7 * i) % 20, b = (7 * (i + 1)) % 20;
+        const auto slot = slot_of(a, b);
+        // On the bead of lower storage index: turned round where that is now the other one.
+        CHECK(world.contacts.pair_carried.impulse[slot] == (a < b ? 1.0 : -1.0) * Vec3(i + 1, 0, 0));
+        CHECK(world.contacts.pair_carried.touched[slot] == 1);
+    }
+}
+
+TEST_CASE("spheres at rest are not searched for again", "[candidate_search]")
+{
+    World world = make_world({}, production_settings(Stabilisation::matched), 1e-4);
+    world.model.gravity.setZero();
+    for (int i = 0; i < 10; ++i) world.add_sphere(Vec3(0.011 * i, 0, 0));
+    CHECK(world.update_candidates() == 10);
+    CHECK(world.update_candidates() == 0);
+    world.state.position[3].z() += 0.002;
+    CHECK(world.update_candidates() == 1);
+}
+
+TEST_CASE("no spheres have no candidates", "[candidate_search][degenerate]")
+{
+    World world = make_world({}, production_settings(Stabilisation::matched), 1e-4);
+    world.add_plane(Vec3::Zero(), Vec3::UnitZ());
+    CHECK(world.update_candidates() == 0);
+    world.step();
+    CHECK(world.report.candidates == 0);
+}

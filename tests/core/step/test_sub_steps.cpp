@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/base/archive.hpp"
+#include "core/base/region.hpp"
+#include "core/step/sub_steps.hpp"
+#include "tests/support/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <omp.h>
+
+namespace talus::test
+{
+namespace
+{
+
+constexpr double d = 2 * standard_radius;
+const double time_step = automatic_step();
+const double push_out_speed = automatic_push_out_speed();
+
+ContactLaw law_of(double restitution, double friction = 0.0)
+{
+    return {friction, restitution, 0.0, infinity};
+}
+
+/// A closed box of thin panels round the origin.
+void add_box(World& world, double edge)
+{
+    world.add_wall(box_panels({Vec3::Constant(-0.5 * edge), Vec3::Constant(0.5 * edge)}, {}));
+}
+
+/// Ten spheres on top of each other on the floor, settled.
+World stack(Stabilisation stabilisation)
+{
+    World world = make_world(law_of(0.0, 0.5), production_settings(stabilisation), time_step);
+    world.model.solver.push_out_speed = push_out_speed;
+    world.add_plane(Vec3::Zero(), Vec3::UnitZ());
+    for (int k = 0; k < 10; ++k) world.add_sphere(Vec3(0, 0, (k + 0.5) * d));
+    world.step(15000);
+    return world;
+}
+
+/// 200 spheres of two sizes that fly about in a closed box at up to 60 m/s, so that nearly every step is split.
+World fast_gas(Stabilisation stabilisation)
+{
+    World world = make_world(law_of(0.8, 0.3), production_settings(stabilisation), time_step);
+    world.model.solver.push_out_speed = push_out_speed;
+    add_box(world, 0.14);
+    Random random(5);
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 place = 0.02 * Vec3(i % 6 - 2.5, i / 6 % 6 - 2.5, i / 36 - 2.5);
+        const Vec3 direction(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5);
+        world.add_sphere(place, 60.0 * direction, 1e3 * direction, i % 3 ? 0.5 * d : 0.3 * d);
+    }
+    return world;
+}
+
+template <class T> bool same_bits(const std::vector<T>& a, const std::vector<T>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+} // namespace
+
+TEST_CASE("a step is split where a sphere would move more than 0.2 d in it, and takes its time", "[sub_steps]")
+{
+    const double speed = GENERATE(0.19, 0.21, 2.0, 20.0) * d / 1e-3;
+    World world = make_world(law_of(0.0), production_settings(Stabilisation::matched), 1e-3);
+    world.model.gravity = Vec3::Zero();
+    world.add_sphere(Vec3::Zero(), Vec3(speed, 0, 0));
+    world.step(7);
+    CHECK((world.report.sub_steps > 1) == (speed * 1e-3 > 0.2 * d));
+    CHECK(speed * 1e-3 / world.report.sub_steps <= 0.2 * d);
+    CHECK(world.state.steps == 7);
+    CHECK(world.state.time == 7 * 1e-3);
+    CHECK(world.position().x() == within(1e-13, 7 * 1e-3 * speed));
+}
+
+TEST_CASE("a free fall does not depend on how its steps are split", "[sub_steps]")
+{
+    World world = make_world(law_of(0.0), production_settings(Stabilisation::matched), 1e-3);
+    world.add_sphere(Vec3::Zero(), Vec3(100, 0, 0));
+    world.step(100);
+    CHECK(world.report.sub_steps > 10);
+    CHECK(world.velocity().z() == within(1e-12, -standard_gravity * 0.1));
+    CHECK(world.position().x() == within(1e-12, 10.0));
+}
+
+TEST_CASE("a stack at rest does not notice steps that are split for a sphere far off", "[sub_steps]")
+{
+    const auto stabilisation = GENERATE(Stabilisation::matched, Stabilisation::projected);
+    World alone = stack(stabilisation), world = alone;
+    const auto fast = world.add_sphere(Vec3(1000, 0, 100));
+    const double weight = 10 * world.mass(0) * standard_gravity;
+    double farthest = 0.0, liveliest = 0.0, worst_force = 0.0;
+    int most_sub_steps = 1;
+    for (int round = 0; round < 40; ++round) {
+        // now it flies, and now it does not
+        world.state.motion[world.index_of(fast)].velocity = Vec3(round % 2 ? 100.0 : 0.0, 0, 0);
+        for (int k = 0; k < 50; ++k) {
+            world.step();
+            alone.step();
+            most_sub_steps = std::max(most_sub_steps, world.report.sub_steps);
+            worst_force = std::max(worst_force, std::abs(world.report.wall_impulse.z() / time_step / weight - 1));
+            for (int i = 0; i < 10; ++i) {
+                farthest = std::max(farthest, (world.position(i) - alone.position(i)).norm());
+                liveliest = std::max(liveliest, kinetic_energy(world.state.motion[world.index_of(i)]));
+            }
+            for (const auto& contact : world.contact_forces())
+                if (contact.with_wall) worst_force = std::max(worst_force, std::abs(contact.normal_force / weight - 1));
+        }
+    }
+    CHECK(most_sub_steps == 26);
+    CHECK(farthest < 1e-6 * d);
+    CHECK(liveliest < 1e-12 * world.mass(0) * standard_gravity * d);
+    CHECK(worst_force < 1e-3);
+}
+
+TEST_CASE("a light sphere between a heavy fast one and a thin wall stays on its side", "[sub_steps]")
+{
+    // The heavy one is 1000 times as heavy. Struck without loss the light one leaves twice as fast, within the step,
+    // towards a wall that it did not approach; then it is pressed against it with all that the heavy one has.
+    const double e = GENERATE(0.0, 1.0);
+    const double gap = GENERATE(0.0, 0.011, 0.2, 0.49, 1.3, 5.0) * d;
+    const double step = GENERATE(1e-5, 1e-4, 1e-3);
+    const auto stabilisation = GENERATE(Stabilisation::matched, Stabilisation::projected);
+    World world = make_world(law_of(e), production_settings(stabilisation), step);
+    world.model.gravity = Vec3::Zero();
+    world.model.solver.push_out_speed = push_out_speed;
+    world.add_wall(Disk{Vec3::Zero(), Vec3::UnitZ(), 0.2, 0.0});
+    const double above = standard_radius + gap;
+    const auto light = world.add_sphere(Vec3(0, 0, above));
+    const auto heavy = world.add_sphere(
+        Vec3(0.02 * d, 0, above + 1.7 * d), Vec3(0, 0, -100), Vec3::Zero(), standard_radius, 1000 * standard_density);
+    double lowest = infinity;
+    for (double time = 0.0; time < 2e-3; time += step) {
+        world.step();
+        lowest = std::min({lowest, world.position(light).z(), world.position(heavy).z()});
+    }
+    CHECK(lowest > 0.0);
+    CHECK(world.velocity(heavy).norm() <= 100.0 * (1 + 1e-9));
+}
+
+TEST_CASE("a wall that moves at 100 m/s does not pass a sphere", "[sub_steps]")
+{
+    const double place = GENERATE(0.5, 1.7, 3.3, 9.1) * d;
+    World world = make_world(law_of(0.0), production_settings(Stabilisation::matched), 1e-3);
+    world.model.gravity = Vec3::Zero();
+    world.model.solver.push_out_speed = push_out_speed;
+    world.add_wall(Disk{Vec3::Zero(), Vec3::UnitX(), 0.1, 0.0}, {Translation{{}, Vec3(100, 0, 0)}});
+    world.add_sphere(Vec3(standard_radius + place, 0, 0));
+    world.step(5);
+    CHECK(world.position().x() - 100.0 * world.state.time > 0.95 * standard_radius);
+    CHECK(world.velocity().x() == within(0.04, 100.0)); // a soft impact gives back 1/27
+}
+
+TEST_CASE("a fast gas is the same bits after a restart, and with any number of threads", "[sub_steps][determinism]")
+{
+    const auto stabilisation = GENERATE(Stabilisation::matched, Stabilisation::projected);
+    World through = fast_gas(stabilisation);
+    const int before = omp_get_max_threads();
+    omp_set_num_threads(1);
+    through.step(60);
+    Archive stored;
+    stored(through.state, through.contacts);
+    Archive archive(stored.bytes());
+    World resumed = fast_gas(stabilisation);
+    archive(resumed.state, resumed.contacts);
+    resumed.contacts.resize_contacts(resumed.model.physics);
+    through.step(60);
+    CHECK(through.report.sub_steps > 1);
+    omp_set_num_threads(3);
+    resumed.step(60);
+    omp_set_num_threads(before);
+    CHECK(same_bits(through.state.position, resumed.state.position));
+    CHECK(same_bits(through.state.motion, resumed.state.motion));
+}
+
+} // namespace talus::test
