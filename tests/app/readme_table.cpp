@@ -10,7 +10,7 @@
 
 void check_readme_table(const std::string& name, const std::string& table)
 {
-    const std::string path = TALUS_SOURCE_DIR "/tests/README.md";
+    const std::string path = TALUS_SOURCE_DIR "/tests/results/" + name + ".md";
     const std::string begin = "<!-- " + name + " begin -->\n", end = "<!-- " + name + " end -->\n";
     std::ifstream file(path);
     const std::string text{std::istreambuf_iterator<char>(file), {}};

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-/// Compares a table with what tests/README.md has between its marks "NAME begin" and "NAME end"; where the environment
-/// has TALUS_UPDATE_TABLES, it is written there instead.
+/// Compares a table with what tests/results/NAME.md has between its marks "NAME begin" and "NAME end"; where the
+/// environment has TALUS_UPDATE_TABLES, it is written there instead.
 void check_readme_table(const std::string& name, const std::string& table);
 
 /// A text in which what matches the first of each pair is the second, and so are the time and step at which a run ended

@@ -5,7 +5,7 @@
 A case whose result is there from the same program is not run again, so that a run can be broken off and continued, and
 a case added, at the cost of the cases that are missing.
 
-    tests/hard/run.py PROGRAM RESULTS [--write README] [WORD…]
+    tests/hard/run.py PROGRAM RESULTS [--write PAGE] [WORD…]
 
 With words only the cases whose name has one of them. --write puts the table between the marks of that file.
 """
@@ -87,7 +87,7 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("results", type=pathlib.Path)
     parser.add_argument("words", nargs="*")
-    parser.add_argument("--write", type=pathlib.Path, metavar="README")
+    parser.add_argument("--write", type=pathlib.Path, metavar="PAGE")
     arguments = parser.parse_args()
 
     results = arguments.results.resolve()

@@ -202,7 +202,7 @@ void kill_at_random(const Victim& victim, int wanted)
 
 } // namespace
 
-TEST_CASE("what befalls a run has an exit code and a sentence, and little is lost: the table in tests/README.md",
+TEST_CASE("what befalls a run has an exit code and a sentence, and little is lost: tests/results/faults.md",
     "[app][faults][not under thread]")
 {
     std::string table = "| fault | exit code | sentence | what was kept |\n| --- | --- | --- | --- |\n";

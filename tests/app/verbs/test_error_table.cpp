@@ -294,7 +294,7 @@ std::string row(const Situation& situation)
 
 } // namespace
 
-TEST_CASE("every complaint is one sentence with an exit code, as the table in tests/README.md has it",
+TEST_CASE("every complaint is one sentence with an exit code, as the table in tests/results/errors.md has it",
     "[app][errors][not under thread]")
 {
     std::string table = "| situation | exit code | sentence |\n| --- | --- | --- |\n";
