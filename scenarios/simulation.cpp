@@ -2,8 +2,7 @@
 #include "scenarios/simulation.hpp"
 
 #include "core/candidates/neighbor_search.hpp"
-#include "core/step/saved_state.hpp"
-#include "core/step/sub_steps.hpp"
+#include "core/step/time_step.hpp"
 #include "core/world/placed_wall.hpp"
 
 namespace talus
@@ -19,31 +18,27 @@ void let_in_and_out(Simulation& simulation)
 {
     for (auto& source : simulation.pours) pour(source, simulation.state, simulation.model);
     if (simulation.state.steps % outlet_interval == 0)
-        empty_outlets(simulation.outflow, simulation.state, simulation.contacts, simulation.model);
+        empty_outlets(simulation.outflow, simulation.state, simulation.network, simulation.model);
 }
 
 } // namespace
 
 void Simulation::persist(Archive& archive)
 {
-    archive(state, contacts, pours, outflow, escaped);
-    if (archive.reading()) {
-        require_whole(state, contacts, model);
-        contacts.resize_contacts(model.physics);
-    }
+    archive(state, network, pours, outflow, escaped);
     for (const auto& sensor : sensors) archive(*sensor);
 }
 
-StepReport step(Simulation& simulation, const PhaseObserver& observer)
+StepReport advance(Simulation& simulation, const PhaseObserver& observer)
 {
     let_in_and_out(simulation);
-    return make_step(simulation.state, simulation.contacts, simulation.model, observer);
+    return advance(simulation.state, simulation.network, simulation.model, observer);
 }
 
-BegunStep begin_step(Simulation& simulation)
+PreparedStep prepare_step(Simulation& simulation)
 {
     let_in_and_out(simulation);
-    return begin_step(simulation.state, simulation.contacts, simulation.model);
+    return prepare_step(simulation.state, simulation.network, simulation.model, {simulation.model.time_step});
 }
 
 bool has_reached(const Simulation& simulation, double time, std::int64_t steps_ahead)

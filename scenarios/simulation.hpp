@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/sensors/sensor.hpp"
 #include "core/step/time_step.hpp"
-#include "core/supply/escape.hpp"
-#include "core/supply/outlet.hpp"
 #include "core/supply/pour.hpp"
+#include "core/supply/removal.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
 #include "scenarios/output_choice.hpp"
@@ -22,7 +21,7 @@ namespace talus
 struct Simulation {
     Model model;
     State state;
-    ContactNetwork contacts;
+    ContactNetwork network;
     std::vector<Pour> pours;
     Outflow outflow;
     std::vector<EscapedSphere> escaped; ///< and taken out, where the scene says so
@@ -39,11 +38,11 @@ struct Simulation {
 };
 
 /// Lets poured spheres in, takes away (every tenth step) the spheres that have been in an outlet, and advances by one
-/// step. Contacts and spheres belong together until the next call.
-StepReport step(Simulation& simulation, const PhaseObserver& observer = {});
+/// step. Network and spheres belong together until the next call.
+StepReport advance(Simulation& simulation, const PhaseObserver& observer = {});
 
-/// The beginning of a step: spheres come and go, and `contacts` has the problem that the rest of it would solve.
-BegunStep begin_step(Simulation& simulation);
+/// The beginning of a step: spheres come and go, and `network` has the problem that the rest of it would solve.
+PreparedStep prepare_step(Simulation& simulation);
 
 /// Whether the simulation is at this time, or past it, up to a thousandth of a step, for which only rounding is to
 /// blame.
@@ -53,7 +52,7 @@ bool has_reached(const Simulation& simulation, double time, std::int64_t steps_a
 /// What sensors look at after a step.
 inline Snapshot snapshot(const Simulation& simulation, const StepReport& report)
 {
-    return {simulation.state, simulation.model, simulation.contacts, report};
+    return {simulation.state, simulation.model, simulation.network, report};
 }
 
 /// Overlaps of the spheres as they lie: how many contacts, and the worst of them.

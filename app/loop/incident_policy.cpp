@@ -8,7 +8,7 @@ namespace talus
 
 bool IncidentPolicy::stops(const StepReport& report) const
 {
-    return std::ranges::any_of(report.incidents, [&](const Incident& incident) {
+    return std::ranges::any_of(report.bodies.incidents, [&](const Incident& incident) {
         const bool may_be_removed = incident.kind == Incident::Kind::escaped && !incident.of_piston();
         return !(may_be_removed && remove_escaped_) && !(incident.kind == Incident::Kind::pressed && go_on_pressed_);
     });
@@ -16,8 +16,8 @@ bool IncidentPolicy::stops(const StepReport& report) const
 
 void take_out_escaped(Simulation& simulation, const StepReport& report)
 {
-    if (report.incidents.empty()) return;
-    remove_escaped(simulation.escaped, simulation.state, simulation.contacts, simulation.model, report.incidents);
+    if (report.bodies.incidents.empty()) return;
+    remove_escaped(simulation.escaped, simulation.state, simulation.network, simulation.model, report.bodies.incidents);
 }
 
 } // namespace talus

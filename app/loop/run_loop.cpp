@@ -103,7 +103,7 @@ RunEnd RunLoop::run()
         tell(report);
     }
     if (end.signal == 0) write_the_rest(report);
-    if (policy_.stops(report)) end.incidents = report.incidents;
+    if (policy_.stops(report)) end.incidents = report.bodies.incidents;
     progress_.finish();
     clock_.begin(RunPhase::output); // so that the phases add up to the whole
     return end;
@@ -122,7 +122,7 @@ bool RunLoop::next_step_is_last() const
 /// What escaped, and need not end the run.
 void RunLoop::clear_away(const StepReport& report)
 {
-    if (report.incidents.empty()) return;
+    if (report.bodies.incidents.empty()) return;
     take_out_escaped(simulation_, report);
     write_lost(folder_, simulation_.escaped);
 }
@@ -131,7 +131,7 @@ StepReport RunLoop::make_step()
 {
     note_step(simulation_.state.steps, simulation_.state.time);
     clock_.begin(RunPhase::pour_and_outlet);
-    StepReport report = step(simulation_, [this](Phase phase) { clock_.begin(phase); });
+    StepReport report = advance(simulation_, [this](Phase phase) { clock_.begin(phase); });
     clock_.begin(RunPhase::output);
     statistics_.add(report, simulation_);
     if (!policy_.stops(report))
@@ -152,7 +152,7 @@ void RunLoop::tell(const StepReport& report)
 void RunLoop::tell_incidents(const StepReport& report)
 {
     std::size_t escapes = simulation_.escaped.size();
-    for (const Incident& incident : report.incidents) {
+    for (const Incident& incident : report.bodies.incidents) {
         const bool pressed = incident.kind == Incident::Kind::pressed;
         const std::size_t told = pressed ? presses_told_++ : escapes++;
         if (told > incidents_told) continue;
@@ -238,9 +238,9 @@ void RunLoop::write_metrics(const StepReport& report)
     const State& state = simulation_.state;
     const double d = simulation_.model.mean_diameter;
     std::vector<double> row = {state.time, static_cast<double>(state.count()), static_cast<double>(state.next_id),
-        static_cast<double>(simulation_.outflow.count), static_cast<double>(report.contacts),
-        static_cast<double>(report.sweeps), report.residual, report.worst_overlap / d, report.mean_overlap / d,
-        report.kinetic_energy, report.potential_energy, report.contact_energy};
+        static_cast<double>(simulation_.outflow.count), static_cast<double>(report.contacts.count),
+        static_cast<double>(report.solve.sweeps), report.solve.residual, report.contacts.worst_overlap / d, report.contacts.mean_overlap() / d,
+        report.bodies.kinetic_energy, report.bodies.potential_energy, report.contacts.stored_energy};
     for (const auto& sensor : simulation_.sensors)
         for (const Measurement& m : sensor->latest()) row.push_back(m.value);
     metrics_->add_row(row);

@@ -8,20 +8,20 @@ namespace talus
 
 void RunStatistics::add(const StepReport& report, const Simulation& simulation)
 {
-    residuals_.add(report.residual);
-    if (!report.converged) ++steps_at_cap_;
+    residuals_.add(report.solve.residual);
+    if (!report.solve.converged) ++steps_at_cap_;
     if (report.sub_steps > 1) ++split_steps_;
     most_sub_steps_ = std::max(most_sub_steps_, report.sub_steps);
 
-    overlap_sum_ += report.mean_overlap * static_cast<double>(report.overlapping);
-    overlap_count_ += static_cast<double>(report.overlapping);
-    if (report.worst_overlap > worst_overlap_) {
-        worst_overlap_ = report.worst_overlap;
+    overlap_sum_ += report.contacts.mean_overlap() * static_cast<double>(report.contacts.overlapping);
+    overlap_count_ += static_cast<double>(report.contacts.overlapping);
+    if (report.contacts.worst_overlap > worst_overlap_) {
+        worst_overlap_ = report.contacts.worst_overlap;
         worst_overlap_time_ = simulation.state.time;
     }
-    long_moves_ += static_cast<std::int64_t>(report.long_moves);
-    cone_violation_ = std::max(cone_violation_, report.cone_violation);
-    contact_updates_ += static_cast<double>(report.contacts) * report.sweeps;
+    long_moves_ += static_cast<std::int64_t>(report.bodies.long_moves);
+    cone_violation_ = std::max(cone_violation_, report.outcome.cone_violation);
+    contact_updates_ += static_cast<double>(report.contacts.count) * report.solve.sweeps;
 
     const std::int64_t inserted = simulation.state.next_id;
     const std::int64_t left = simulation.outflow.count + static_cast<std::int64_t>(simulation.escaped.size());

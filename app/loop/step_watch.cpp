@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/loop/step_watch.hpp"
 
-#include "core/contacts/loaded_contacts.hpp"
+#include "core/contacts/loads.hpp"
 
 #include <fmt/format.h>
 
@@ -31,12 +31,12 @@ std::string deepest_now(const Simulation& simulation)
     const State& state = simulation.state;
     double deepest = 0.0;
     std::string who;
-    for_each_loaded_sphere_contact(simulation.contacts, [&](const Contact& c, const ContactGeometry& g) {
+    for_each_loaded_sphere_contact(simulation.network, [&](const Contact& c, const ContactGeometry& g) {
         if (-g.gap <= deepest) return;
         deepest = -g.gap;
         who = fmt::format(", now spheres {} and {} most", state.id[c.a], state.id[c.b]);
     });
-    for_each_loaded_wall_contact(simulation.contacts, [&](const Contact& c, const ContactGeometry& g) {
+    for_each_loaded_wall_contact(simulation.network, [&](const Contact& c, const ContactGeometry& g) {
         if (-g.gap <= deepest) return;
         deepest = -g.gap;
         who = fmt::format(", now sphere {} and the wall '{}' most", state.id[c.a], simulation.model.walls[c.b].name);
@@ -54,8 +54,8 @@ std::string StepWatch::warning_after(const StepReport& report, const Simulation*
 
 std::string StepWatch::warning_of_moves(const StepReport& report)
 {
-    if (move_told_ || report.long_moves == 0) return "";
-    fastest_ = std::max(fastest_, report.fastest_speed);
+    if (move_told_ || report.bodies.long_moves == 0) return "";
+    fastest_ = std::max(fastest_, report.bodies.fastest_speed);
     if (++steps_with_long_moves_ < long_move_steps) return "";
     move_told_ = true;
     return fmt::format(
@@ -67,12 +67,12 @@ std::string StepWatch::warning_of_moves(const StepReport& report)
 std::string StepWatch::warning_of_overlap(const StepReport& report, const Simulation* simulation)
 {
     if (overlap_told_) return "";
-    if (report.worst_overlap < deep_overlap * model_.mean_diameter) {
+    if (report.contacts.worst_overlap < deep_overlap * model_.mean_diameter) {
         deep_steps_ = 0;
         deepest_ = 0.0;
         return "";
     }
-    deepest_ = std::max(deepest_, report.worst_overlap);
+    deepest_ = std::max(deepest_, report.contacts.worst_overlap);
     if (++deep_steps_ < deep_overlap_steps) return "";
     overlap_told_ = true;
     // the stiffness that the sweeps can carry goes with 1/h²

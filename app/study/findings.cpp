@@ -2,7 +2,7 @@
 #include "app/study/findings.hpp"
 
 #include "app/study/saved_state.hpp"
-#include "core/contacts/loaded_contacts.hpp"
+#include "core/contacts/loads.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,7 @@ void Findings::add_momentum(const StepReport& report, const Simulation& simulati
     const Vec3 momentum = linear_momentum(simulation.state);
     const double h = simulation.model.time_step;
     if (statistics_.same_spheres() && !simulation.model.physics.pistons) {
-        const Vec3 put_in = h * mass_of(simulation.state) * simulation.model.gravity + report.wall_impulse;
+        const Vec3 put_in = h * mass_of(simulation.state) * simulation.model.gravity + report.outcome.wall_impulse;
         const double unit = h * units_.mass * units_.acceleration;
         momentum_error_ = std::max(momentum_error_, (momentum - momentum_ - put_in).norm() / unit);
     }
@@ -92,7 +92,7 @@ void Findings::look(const StepReport& report, Simulation& simulation)
 {
     const State& state = simulation.state;
     ++looked_;
-    const auto forces = cuts_.forces(state, simulation.contacts, report, simulation.model.time_step);
+    const auto forces = cuts_.forces(state, simulation.network, report, simulation.model.time_step);
     for (std::size_t k = 0; k < forces.size(); ++k) force_sum_[k] += forces[k];
     support_squares_ += forces[0] * forces[0];
     height_sum_ += packing_height(state, up_);
@@ -100,8 +100,8 @@ void Findings::look(const StepReport& report, Simulation& simulation)
     const auto note = [&](const Contact&, const ContactGeometry& geometry) {
         if (geometry.gap < 0.0) overlaps_.add(-geometry.gap / units_.diameter);
     };
-    for_each_loaded_sphere_contact(simulation.contacts, note);
-    for_each_loaded_wall_contact(simulation.contacts, note);
+    for_each_loaded_sphere_contact(simulation.network, note);
+    for_each_loaded_wall_contact(simulation.network, note);
     for (const auto& sensor : simulation.sensors) sensor->sample(snapshot(simulation, report));
 }
 
@@ -144,13 +144,13 @@ double velocity_error_of_next_step(Simulation& simulation)
 {
     const std::string before = state_of(simulation);
     const SolverSettings usual = simulation.model.solver;
-    step(simulation);
+    advance(simulation);
     const auto velocity = velocities(simulation.state);
     put_back(simulation, before);
 
     simulation.model.solver.tolerance = exact_tolerance;
     simulation.model.solver.max_sweeps = exact_sweeps;
-    step(simulation);
+    advance(simulation);
     double squares = 0.0;
     for (const auto& [id, exact] : velocities(simulation.state))
         if (const auto found = velocity.find(id); found != velocity.end())

@@ -60,7 +60,7 @@ fs::path state_folder(const StudyFrame& frame, std::int64_t seed)
 std::string told(const Simulation& simulation, const StepReport& report)
 {
     return fmt::format("t = {:.6g} s: {}", simulation.state.time,
-        describe(report.incidents.front(), names_of(simulation.model.walls)));
+        describe(report.bodies.incidents.front(), names_of(simulation.model.walls)));
 }
 
 /// Makes steps until a time, and tells each to `observe`. Returns what went wrong.
@@ -73,7 +73,7 @@ std::string run_until(double time, OpenedScene& opened, const std::function<void
     const IncidentPolicy policy(opened.scene);
     while (!has_reached(simulation, time)) {
         const double before = cpu_time();
-        const StepReport report = step(simulation);
+        const StepReport report = advance(simulation);
         cpu += cpu_time() - before;
         if (policy.stops(report)) return told(simulation, report);
         observe(report);

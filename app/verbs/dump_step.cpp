@@ -26,8 +26,8 @@ std::vector<Incident> step_until(Simulation& simulation, double time, Verbosity 
     Progress progress(verbosity, simulation);
     StepWatch watch(simulation.model);
     StepReport report;
-    while (!has_reached(simulation, time) && report.incidents.empty()) {
-        report = step(simulation);
+    while (!has_reached(simulation, time) && report.bodies.incidents.empty()) {
+        report = advance(simulation);
         progress.update(simulation, report, clock.wall());
         const std::string warning = watch.warning_after(report, &simulation);
         if (warning.empty() || verbosity == Verbosity::quiet) continue;
@@ -35,7 +35,7 @@ std::vector<Incident> step_until(Simulation& simulation, double time, Verbosity 
         warn("t = {:.6g} s: {}\n", simulation.state.time, warning);
     }
     progress.finish();
-    return report.incidents;
+    return report.bodies.incidents;
 }
 
 } // namespace
@@ -53,8 +53,8 @@ ExitCode dump_step(const CommandLine& line)
         return ExitCode::physics;
     }
 
-    begin_step(simulation);
-    const StepProblem step = make_step_problem(simulation.state, simulation.contacts, simulation.model);
+    prepare_step(simulation);
+    const StepProblem step = make_step_problem(simulation.state, simulation.network, simulation.model);
     FclibProblem file = to_fclib(step.problem, step.warm_impulse);
     file.title = fmt::format("{}: {}", opened.name, opened.scene.title);
     file.description = fmt::format(

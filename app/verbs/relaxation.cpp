@@ -36,11 +36,11 @@ Relaxation relax_overlaps(Simulation& simulation, const OverlapCheck& overlaps)
     Relaxation relaxation;
     const Model model = relaxing_model(simulation.model);
     State state = simulation.state;
-    ContactNetwork contacts;
+    ContactNetwork network;
     double worst = overlaps.worst;
     while (worst > good_overlap * model.mean_diameter && relaxation.steps < most_steps) {
         stop(state);
-        worst = advance(state, contacts, model).worst_overlap; // before the step, which makes it smaller
+        worst = advance(state, network, model).contacts.worst_overlap; // before the step, which makes it smaller
         ++relaxation.steps;
     }
     simulation.state.position = state.position;

@@ -12,7 +12,7 @@ namespace talus
 {
 
 /// How a solve went and how long it took.
-struct TimedReport : multibody::SolveReport {
+struct TimedReport : multibody::IterationReport {
     double seconds = 0.0;
     std::optional<multibody::RunningError> running_error = {}; ///< of Algorithm 2.2
 };

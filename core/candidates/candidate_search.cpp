@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/candidates/candidate_search.hpp"
 
-#include "core/candidates/candidate_layout.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace talus
 {
@@ -26,27 +25,27 @@ double needed_radius(const State& state, const Model& model, std::size_t i)
 }
 
 /// The room that sphere i takes, and would take after the closing horizon, with the reach of its contacts.
-Box needed_box(const State& state, const Model& model, std::size_t i)
+Box needed_box(const State& state, const Model& model, double h, std::size_t i)
 {
     const Vec3& x = state.position[i];
-    const Vec3 move = closing_horizon * model.time_step * (state.motion[i].velocity + model.time_step * model.gravity);
+    const Vec3 move = closing_horizon * h * (state.motion[i].velocity + h * model.gravity);
     return Box{x, x}.extend(Vec3(x + move)).grown(needed_radius(state, model, i));
 }
 
-Box new_listed_box(const State& state, const Model& model, std::size_t i)
+Box new_listed_box(const State& state, const Model& model, double h, std::size_t i)
 {
-    const double t = horizon_steps * model.time_step;
+    const double t = horizon_steps * h;
     Vec3 draw = t * state.motion[i].velocity + 0.5 * t * t * model.gravity;
     const double longest = longest_draw * model.min_diameter;
     if (draw.norm() > longest) draw *= longest / draw.norm();
-    const Box now = needed_box(state, model, i);
+    const Box now = needed_box(state, model, h, i);
     return Box(now)
         .extend(Box{now.min + draw, now.max + draw})
         .grown(skin * model.min_diameter + skin_per_draw * draw.norm());
 }
 
 /// The spheres whose listed box no longer serves; when there are any, those whose skin is nearly used up too.
-std::vector<std::int32_t> spheres_to_search(const ContactNetwork& network, const State& state, const Model& model)
+std::vector<std::int32_t> spheres_to_search(const CandidateList& list, const State& state, const Model& model, double h)
 {
     const auto count = static_cast<std::int64_t>(state.count());
     std::vector<std::uint8_t> wear(state.count(), 0);
@@ -54,10 +53,10 @@ std::vector<std::int32_t> spheres_to_search(const ContactNetwork& network, const
 #pragma omp parallel for schedule(static) reduction(|| : any_left) if (count > 1000)
     for (std::int64_t i = 0; i < count; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        const Vec3 shift = model.periodicity.shift_towards(state.position[k], network.listed_box[k].center());
-        const Box needed = needed_box(state, model, k).shifted(shift);
-        const bool left = !network.listed_box[k].contains(needed);
-        const bool worn = !network.listed_box[k].contains(needed.grown((1.0 - worn_share) * skin * model.min_diameter));
+        const Vec3 shift = model.periodicity.shift_towards(state.position[k], list.listed_box[k].center());
+        const Box needed = needed_box(state, model, h, k).shifted(shift);
+        const bool left = !list.listed_box[k].contains(needed);
+        const bool worn = !list.listed_box[k].contains(needed.grown((1.0 - worn_share) * skin * model.min_diameter));
         wear[k] = left || worn;
         any_left = any_left || left;
     }
@@ -68,66 +67,86 @@ std::vector<std::int32_t> spheres_to_search(const ContactNetwork& network, const
     return result;
 }
 
-/// Where the old list has this pair, if it does.
-std::int32_t find_old_pair(const ContactNetwork& network, const IndexPair& pair)
+/// Where the old list has a pair, for a new one to find what it carried.
+class OldPairs
 {
-    if (static_cast<std::size_t>(pair.a) >= network.first_pair.size()) return EntrySource::none;
-    const auto begin = network.first_pair[pair.a];
-    for (auto k = begin; k < begin + network.pair_count[pair.a]; ++k)
-        if (network.pairs[network.pair_of_sphere[k]].b == pair.b)
-            return static_cast<std::int32_t>(network.pair_of_sphere[k]);
-    return EntrySource::none;
-}
+public:
+    OldPairs(const CandidateList& list, std::size_t spheres)
+        : list_(list), first_(spheres + 1, 0), slots_(list.pairs.size()), first_wall_pair_(spheres, not_listed)
+    {
+        for (const IndexPair& pair : list.pairs) ++first_[pair.a + 1];
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        auto place = first_;
+        for (std::size_t k = 0; k < list.pairs.size(); ++k)
+            slots_[place[list.pairs[k].a]++] = static_cast<std::int32_t>(k);
+        for (std::size_t k = list.wall_pairs.size(); k-- > 0;)
+            first_wall_pair_[list.wall_pairs[k].sphere] = static_cast<std::int32_t>(k);
+    }
 
-std::int32_t find_old_wall_pair(const ContactNetwork& network, std::int32_t sphere, std::int32_t wall)
-{
-    if (static_cast<std::size_t>(sphere) >= network.first_wall_pair.size()) return EntrySource::none;
-    const auto begin = network.first_wall_pair[sphere];
-    for (auto k = begin; k < begin + network.wall_pair_count[sphere]; ++k)
-        if (network.wall_pairs[k].wall == wall) return static_cast<std::int32_t>(k);
-    return EntrySource::none;
-}
+    std::int32_t find(const IndexPair& pair) const
+    {
+        for (auto k = first_[pair.a]; k < first_[pair.a + 1]; ++k)
+            if (list_.pairs[slots_[k]].b == pair.b) return slots_[k];
+        return not_listed;
+    }
+
+    std::int32_t find_wall(std::int32_t sphere, std::int32_t wall) const
+    {
+        const auto first = first_wall_pair_[sphere];
+        if (first == not_listed) return not_listed;
+        for (auto k = static_cast<std::size_t>(first); k < list_.wall_pairs.size(); ++k) {
+            if (list_.wall_pairs[k].sphere != sphere) break;
+            if (list_.wall_pairs[k].wall == wall) return static_cast<std::int32_t>(k);
+        }
+        return not_listed;
+    }
+
+private:
+    const CandidateList& list_;
+    std::vector<std::uint32_t> first_;          ///< by sphere: its pairs in slots_; spheres + 1
+    std::vector<std::int32_t> slots_;           ///< by the first sphere of their pair
+    std::vector<std::int32_t> first_wall_pair_; ///< by sphere
+};
 
 /// Whether two spheres can come within reach of each other while each stays inside its listed box.
-bool can_touch(const ContactNetwork& network, const State& state, const Model& model, const IndexPair& pair)
+bool can_touch(const CandidateList& list, const State& state, const Model& model, const IndexPair& pair)
 {
     const double ra = needed_radius(state, model, static_cast<std::size_t>(pair.a));
     const double rb = needed_radius(state, model, static_cast<std::size_t>(pair.b));
-    const Box a = network.listed_box[pair.a].grown(-ra);
-    const Box& box_b = network.listed_box[pair.b];
+    const Box a = list.listed_box[pair.a].grown(-ra);
+    const Box& box_b = list.listed_box[pair.b];
     const Box b = box_b.grown(-rb).shifted(model.periodicity.shift_towards(box_b.center(), a.center()));
     const Vec3 apart = (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0);
     return apart.squaredNorm() <= (ra + rb) * (ra + rb);
 }
 
-void search_spheres(CandidateEntries& entries, const ContactNetwork& network, const State& state, const Model& model,
-    const std::vector<std::int32_t>& movers)
+void search_spheres(CandidateEntries& entries, const CandidateList& list, const OldPairs& old, const State& state,
+    const Model& model, const std::vector<std::int32_t>& movers)
 {
-    const bool alone = static_cast<double>(movers.size()) < few * static_cast<double>(network.listed_box.size());
-    const auto found = alone ? find_box_pairs(network.listed_box, movers, model.periodicity)
-                             : find_box_pairs(network.listed_box, model.periodicity);
+    const bool alone = static_cast<double>(movers.size()) < few * static_cast<double>(list.listed_box.size());
+    const auto found = alone ? find_box_pairs(list.listed_box, movers, model.periodicity)
+                             : find_box_pairs(list.listed_box, model.periodicity);
     for (const auto& pair : found)
-        if (can_touch(network, state, model, pair))
-            entries.pairs.push_back({pair, {find_old_pair(network, pair), false}});
+        if (can_touch(list, state, model, pair)) entries.pairs.push_back({pair, old.find(pair)});
     if (!alone) return;
 
-    std::vector<std::uint8_t> moves(network.listed_box.size(), 0);
+    std::vector<std::uint8_t> moves(list.listed_box.size(), 0);
     for (const auto i : movers) moves[i] = 1;
-    for (std::size_t k = 0; k < network.pairs.size(); ++k)
-        if (!moves[network.pairs[k].a] && !moves[network.pairs[k].b])
-            entries.pairs.push_back({network.pairs[k], {static_cast<std::int32_t>(k), false}});
+    for (std::size_t k = 0; k < list.pairs.size(); ++k)
+        if (!moves[list.pairs[k].a] && !moves[list.pairs[k].b])
+            entries.pairs.push_back({list.pairs[k], static_cast<std::int32_t>(k)});
 }
 
 /// The walls that have moved so far since they were listed, or will in this step, that their lists may miss a sphere.
 std::vector<std::uint8_t> walls_to_search(
-    const ContactNetwork& network, const Model& model, const std::vector<PlacedWall>& walls)
+    const CandidateList& list, const Model& model, double h, const std::vector<PlacedWall>& walls)
 {
     std::vector<std::uint8_t> stale(walls.size(), 0);
     for (std::size_t w = 0; w < walls.size(); ++w) {
         if (!walls[w].moves()) continue;
-        if (!network.listed_pose.empty()) {
-            const double way = walls[w].way_since(network.listed_pose[w], network.listed_around);
-            const double ahead = closing_horizon * model.time_step * walls[w].fastest(network.listed_around);
+        if (!list.listed_pose.empty()) {
+            const double way = walls[w].way_since(list.listed_pose[w], list.listed_around);
+            const double ahead = closing_horizon * h * walls[w].fastest(list.listed_around);
             if (way + ahead <= wall_skin * model.min_diameter) continue;
         }
         stale[w] = 1;
@@ -139,15 +158,15 @@ std::vector<std::uint8_t> walls_to_search(
 class WallSearch
 {
 public:
-    WallSearch(CandidateEntries& entries, const ContactNetwork& network, const Model& model,
+    WallSearch(CandidateEntries& entries, const CandidateList& list, const OldPairs& old, const Model& model, double h,
         const std::vector<PlacedWall>& walls)
-        : entries_(entries), network_(network), walls_(walls)
+        : entries_(entries), list_(list), old_(old), walls_(walls)
     {
         // A wall does not come half of the way, as another sphere does.
         const double reach = 0.5 * open_contact_reach * model.min_diameter;
         for (const auto& wall : walls) {
             // One skin that it may have moved already, where a sphere is searched for alone, and one for the future.
-            const double ahead = closing_horizon * model.time_step * wall.fastest(network.listed_around);
+            const double ahead = closing_horizon * h * wall.fastest(list.listed_around);
             margin_.push_back(wall.moves() ? reach + 2.0 * wall_skin * model.min_diameter + ahead : reach);
         }
     }
@@ -155,93 +174,95 @@ public:
     void search(std::int32_t sphere, std::size_t wall)
     {
         const auto first = static_cast<std::uint32_t>(entries_.patches.size());
-        walls_[wall].patches_near(network_.listed_box[sphere].grown(margin_[wall]), entries_.patches);
+        walls_[wall].patches_near(list_.listed_box[sphere].grown(margin_[wall]), entries_.patches);
         const auto patches = static_cast<std::uint32_t>(entries_.patches.size()) - first;
         const auto w = static_cast<std::int32_t>(wall);
-        if (patches > 0) entries_.walls.push_back({sphere, w, first, patches, find_old_wall_pair(network_, sphere, w)});
+        if (patches > 0) entries_.walls.push_back({sphere, w, first, patches, old_.find_wall(sphere, w)});
     }
 
     void keep(std::size_t old_pair)
     {
-        const auto& old = network_.wall_pairs[old_pair];
+        const auto& old = list_.wall_pairs[old_pair];
         const auto first = static_cast<std::uint32_t>(entries_.patches.size());
-        for (std::uint32_t p = 0; p < old.patches; ++p) entries_.patches.push_back(network_.patches[old.first + p]);
+        for (std::uint32_t p = 0; p < old.patches; ++p) entries_.patches.push_back(list_.patches[old.first + p]);
         entries_.walls.push_back({old.sphere, old.wall, first, old.patches, static_cast<std::int32_t>(old_pair)});
     }
 
 private:
     CandidateEntries& entries_;
-    const ContactNetwork& network_;
+    const CandidateList& list_;
+    const OldPairs& old_;
     const std::vector<PlacedWall>& walls_;
     std::vector<double> margin_; ///< by wall [m]
 };
 
-void search_walls(CandidateEntries& entries, const ContactNetwork& network, const Model& model,
-    const std::vector<PlacedWall>& walls, const std::vector<std::int32_t>& movers,
+void search_walls(CandidateEntries& entries, const CandidateList& list, const OldPairs& old, const Model& model,
+    double h, const std::vector<PlacedWall>& walls, const std::vector<std::int32_t>& movers,
     const std::vector<std::uint8_t>& stale)
 {
-    const auto spheres = static_cast<std::int32_t>(network.listed_box.size());
-    std::vector<std::uint8_t> moves(network.listed_box.size(), 0);
+    const auto spheres = static_cast<std::int32_t>(list.listed_box.size());
+    std::vector<std::uint8_t> moves(list.listed_box.size(), 0);
     for (const auto i : movers) moves[i] = 1;
-    WallSearch near(entries, network, model, walls);
+    WallSearch near(entries, list, old, model, h, walls);
     for (std::size_t w = 0; w < walls.size(); ++w) {
         if (stale[w])
             for (std::int32_t i = 0; i < spheres; ++i) near.search(i, w);
         else
             for (const auto i : movers) near.search(i, w);
     }
-    for (std::size_t k = 0; k < network.wall_pairs.size(); ++k)
-        if (!moves[network.wall_pairs[k].sphere] && !stale[network.wall_pairs[k].wall]) near.keep(k);
+    for (std::size_t k = 0; k < list.wall_pairs.size(); ++k)
+        if (!moves[list.wall_pairs[k].sphere] && !stale[list.wall_pairs[k].wall]) near.keep(k);
 }
 
 } // namespace
 
-std::size_t update_candidates(
-    ContactNetwork& network, const State& state, const Model& model, const std::vector<PlacedWall>& walls)
+std::size_t update_candidates(CandidateList& list, Carried& carried, const State& state, const Model& model, double h,
+    const std::vector<PlacedWall>& walls)
 {
-    network.listed_box.resize(state.count());
-    const auto movers = spheres_to_search(network, state, model);
-    const auto stale = walls_to_search(network, model, walls);
+    list.listed_box.resize(state.count());
+    const auto movers = spheres_to_search(list, state, model, h);
+    const auto stale = walls_to_search(list, model, h, walls);
     const bool any_stale = std::find(stale.begin(), stale.end(), 1) != stale.end();
     if (movers.empty() && !any_stale) return 0;
-    for (const auto i : movers) network.listed_box[i] = new_listed_box(state, model, i);
-    network.listed_around = Box{};
-    for (const Box& box : network.listed_box) network.listed_around.extend(box);
+    for (const auto i : movers) list.listed_box[i] = new_listed_box(state, model, h, i);
+    list.listed_around = Box{};
+    for (const Box& box : list.listed_box) list.listed_around.extend(box);
 
     CandidateEntries entries;
-    search_spheres(entries, network, state, model, movers);
-    search_walls(entries, network, model, walls, movers, stale);
-    network.listed_pose.resize(walls.size());
+    const OldPairs old(list, state.count());
+    search_spheres(entries, list, old, state, model, movers);
+    search_walls(entries, list, old, model, h, walls, movers, stale);
+    list.listed_pose.resize(walls.size());
     for (std::size_t w = 0; w < walls.size(); ++w)
-        if (stale[w]) network.listed_pose[w] = walls[w].pose();
-    lay_down(network, entries, state, model);
+        if (stale[w]) list.listed_pose[w] = walls[w].pose();
+    lay_down(list, carried, entries, state, model);
     return movers.size();
 }
 
-void renumber_candidates(
-    ContactNetwork& network, const State& state, const Model& model, const std::vector<std::int32_t>& new_index)
+void renumber_candidates(CandidateList& list, Carried& carried, const State& state, const Model& model,
+    const std::vector<std::int32_t>& new_index)
 {
     std::vector<Box> listed_box(state.count());
-    for (std::size_t i = 0; i < network.listed_box.size(); ++i)
-        if (new_index[i] >= 0) listed_box[new_index[i]] = network.listed_box[i];
-    network.listed_box = std::move(listed_box);
+    for (std::size_t i = 0; i < list.listed_box.size(); ++i)
+        if (new_index[i] >= 0) listed_box[new_index[i]] = list.listed_box[i];
+    list.listed_box = std::move(listed_box);
 
     CandidateEntries entries;
-    for (std::size_t k = 0; k < network.pairs.size(); ++k) {
-        const IndexPair moved{new_index[network.pairs[k].a], new_index[network.pairs[k].b]};
+    for (std::size_t k = 0; k < list.pairs.size(); ++k) {
+        const IndexPair moved{new_index[list.pairs[k].a], new_index[list.pairs[k].b]};
         if (moved.a < 0 || moved.b < 0) continue;
         const bool opposite = moved.a > moved.b;
         entries.pairs.push_back(
-            {opposite ? IndexPair{moved.b, moved.a} : moved, {static_cast<std::int32_t>(k), opposite}});
+            {opposite ? IndexPair{moved.b, moved.a} : moved, static_cast<std::int32_t>(k), opposite});
     }
-    for (std::size_t k = 0; k < network.wall_pairs.size(); ++k) {
-        const auto& pair = network.wall_pairs[k];
+    for (std::size_t k = 0; k < list.wall_pairs.size(); ++k) {
+        const auto& pair = list.wall_pairs[k];
         if (new_index[pair.sphere] >= 0)
             entries.walls.push_back(
                 {new_index[pair.sphere], pair.wall, pair.first, pair.patches, static_cast<std::int32_t>(k)});
     }
-    entries.patches = network.patches;
-    lay_down(network, entries, state, model);
+    entries.patches = list.patches;
+    lay_down(list, carried, entries, state, model);
 }
 
 } // namespace talus

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/candidates/candidate_list.hpp"
 #include "core/world/model.hpp"
 #include "core/world/placed_wall.hpp"
 #include "core/world/state.hpp"
@@ -25,13 +25,14 @@ inline constexpr double closing_horizon = 1.5;
 ///
 /// Walls that move have a skin of their own: when one has moved further, it alone is searched for anew by all spheres.
 ///
-/// @param walls as they stand when the step begins; returns how many spheres were searched for
-std::size_t update_candidates(
-    ContactNetwork& network, const State& state, const Model& model, const std::vector<PlacedWall>& walls);
+/// @param h of the step [s]; @param walls as they stand when it begins
+/// Returns how many spheres were searched for.
+std::size_t update_candidates(CandidateList& list, Carried& carried, const State& state, const Model& model, double h,
+    const std::vector<PlacedWall>& walls);
 
 /// Follows a new storage order of the spheres: sphere i is now new_index[i], or gone where that is negative.
 /// @param state already renumbered
-void renumber_candidates(
-    ContactNetwork& network, const State& state, const Model& model, const std::vector<std::int32_t>& new_index);
+void renumber_candidates(CandidateList& list, Carried& carried, const State& state, const Model& model,
+    const std::vector<std::int32_t>& new_index);
 
 } // namespace talus

@@ -3,7 +3,6 @@
 
 #include "core/candidates/candidate_search.hpp"
 #include "core/contacts/law.hpp"
-#include "core/contacts/press_count.hpp"
 #include "core/contacts/wall_contacts.hpp"
 
 #include <algorithm>
@@ -16,14 +15,14 @@ namespace
 
 /// Numbers that all contacts of a step share.
 struct StepConstants {
-    double h;
+    StepLength length;
+    double h;               ///< of the length
     double reach;           ///< of open contacts [m]
-    double threshold_speed; ///< slowest impact [m/s]
+    double threshold_speed; ///< slowest impact: that of the whole step [m/s]
 
-    explicit StepConstants(const Model& model)
-        : h(model.time_step), reach(open_contact_reach * model.min_diameter),
-          threshold_speed(
-              model.solver.restitution_threshold * model.gravity.norm() * model.time_step * model.solver.sub_steps)
+    StepConstants(const Model& model, const StepLength& step)
+        : length(step), h(step.h()), reach(open_contact_reach * model.min_diameter),
+          threshold_speed(model.solver.restitution_threshold * model.gravity.norm() * step.h() * step.parts)
     {
     }
 };
@@ -69,25 +68,25 @@ Vec3 warm_impulse(const Vec3& carried, const Vec3& normal, double friction)
 class TileAssembly
 {
 public:
-    TileAssembly(ContactArrays& arrays, const CarriedImpulses& carried, std::size_t first, const Model& model,
+    TileAssembly(ContactArrays& arrays, const CarriedImpulses& carried, std::size_t tile, const Model& model,
         const StepConstants& step)
-        : arrays_(arrays), carried_(carried), first_(first), next_(first), model_(model), step_(step),
+        : arrays_(arrays), carried_(carried), tile_(tile), next_(arrays.first[tile]), model_(model), step_(step),
           inertia_factor_(model.physics.spin ? inverse_inertia_factor : 0.0)
     {
     }
 
     void add(const Touch& touch, const ContactLaw& law, double wall_level)
     {
-        const std::uint8_t touched = carried_.touched[touch.slot];
+        const TouchRecord& before = carried_.touch[touch.slot];
         const auto kind =
-            contact_kind(touch.gap, touch.u_n, touch.u_n_ahead, touched > 0, law, step_.h, step_.threshold_speed);
+            contact_kind(touch.gap, touch.u_n, touch.u_n_ahead, before.touched(), law, step_.h, step_.threshold_speed);
         const Vec3 warm = kind == ContactKind::impact
                               ? Vec3::Zero().eval()
                               : warm_impulse(carried_.impulse[touch.slot], touch.normal, law.friction);
         const double w = touch.inverse_mass_sum;
         const double u_n = kind == ContactKind::impact ? touch.u_n : touch.u_n_before;
-        const auto normal = normal_law({kind, touch.gap, u_n, w, warm.dot(touch.normal), is_beyond_solution(touched)},
-            law, model_.solver, step_.h);
+        const auto normal = normal_law(
+            {kind, touch.gap, u_n, w, warm.dot(touch.normal), before.is_jammed()}, law, model_.solver, step_.length);
 
         arrays_.contact[next_] = {touch.a, touch.b, touch.normal, normal.target, warm};
         arrays_.terms[next_] = {touch.arm_scale, law.friction, normal.compliance, 1.0 / (w + normal.compliance),
@@ -99,8 +98,11 @@ public:
         survey(touch.gap, normal);
     }
 
-    void finish(std::size_t tile) { arrays_.count[tile] = static_cast<std::uint32_t>(next_ - first_); }
-    const ContactSurvey& result() const { return survey_; }
+    ContactSurvey finish()
+    {
+        arrays_.count[tile_] = next_ - arrays_.first[tile_];
+        return survey_;
+    }
 
 private:
     RollingRow rolling_row(const Touch& touch, const ContactLaw& law, ContactKind kind, double warm_normal) const
@@ -117,20 +119,21 @@ private:
 
     void survey(double gap, const NormalLaw& law)
     {
-        ++survey_.contacts;
+        ++survey_.count;
         if (gap >= 0.0) return;
         ++survey_.overlapping;
         survey_.worst_overlap = std::max(survey_.worst_overlap, -gap);
         survey_.overlap_sum -= gap;
         // k = 4 Υ / (Σ_n h²), the stiffness that the compliance stands for.
         if (law.compliance > 0.0 && model_.solver.stabilisation == Stabilisation::matched)
-            survey_.contact_energy +=
+            survey_.stored_energy +=
                 2.0 * upsilon / (law.compliance * step_.h * step_.h) * gap * gap * law.feedback_share;
     }
 
     ContactArrays& arrays_;
     const CarriedImpulses& carried_;
-    std::size_t first_, next_;
+    std::size_t tile_;
+    std::uint32_t next_;
     const Model& model_;
     const StepConstants& step_;
     double inertia_factor_; ///< 0 where spheres do not turn
@@ -142,9 +145,10 @@ template <bool periodic>
 ContactSurvey assemble_sphere_contacts(
     ContactNetwork& network, std::size_t tile, const State& state, const Model& model, const StepConstants& step)
 {
-    TileAssembly assembly(network.sphere_contacts, network.pair_carried, network.pairs_of_tile[tile], model, step);
-    for (auto k = network.pairs_of_tile[tile]; k < network.pairs_of_tile[tile + 1]; ++k) {
-        const auto [a, b] = network.pairs[k];
+    const CandidateList& list = network.list;
+    TileAssembly assembly(network.contacts.spheres, network.carried.pairs, tile, model, step);
+    for (auto k = list.pairs_of_tile[tile]; k < list.pairs_of_tile[tile + 1]; ++k) {
+        const auto [a, b] = list.pairs[k];
         const Motion& ma = state.motion[a];
         const Motion& mb = state.motion[b];
         Vec3 across = state.position[a] - state.position[b];
@@ -152,7 +156,7 @@ ContactSurvey assemble_sphere_contacts(
         const double radii = ma.radius + mb.radius;
         const double closing = across.dot(ma.velocity - mb.velocity);
         if (closing >= 0.0 && across.squaredNorm() > (radii + step.reach) * (radii + step.reach)) {
-            network.pair_carried.clear(k);
+            network.carried.pairs.clear(k);
             continue;
         }
         const double distance = across.norm();
@@ -160,7 +164,7 @@ ContactSurvey assemble_sphere_contacts(
         const Vec3 normal = distance > 0.0 ? Vec3(across / distance) : Vec3::UnitZ();
         const double u_n = normal.dot(ma.velocity - mb.velocity);
         if (!within_reach(distance - radii, u_n, step)) {
-            network.pair_carried.clear(k);
+            network.carried.pairs.clear(k);
             continue;
         }
         assembly.add({.a = a,
@@ -177,8 +181,7 @@ ContactSurvey assemble_sphere_contacts(
                          .slot = k},
             model.materials.between(state.material[a], state.material[b]), 0.0);
     }
-    assembly.finish(tile);
-    return assembly.result();
+    return assembly.finish();
 }
 
 /// Finds the contacts of wall pairs and hands them to an assembly.
@@ -198,9 +201,9 @@ public:
         const PlacedWall& wall = walls_[pair.wall];
         // The image of the sphere for which the patches are listed.
         const Vec3& x = state_.position[pair.sphere];
-        const Vec3 shift = model_.periodicity.shift_towards(x, network_.listed_box[pair.sphere].center());
+        const Vec3 shift = model_.periodicity.shift_towards(x, network_.list.listed_box[pair.sphere].center());
         find_points(pair, wall, x + shift);
-        match_carried(network_, pair, points_);
+        match_carried(network_.carried, pair, points_);
         for (std::size_t k = 0; k < points_.size(); ++k) {
             add(pair, wall, points_[k], pair.first + static_cast<std::uint32_t>(k), x + shift, assembly);
             note(points_[k], shift);
@@ -236,7 +239,7 @@ private:
         const Vec3 ahead = m.velocity + step_.h * model_.gravity;
         const double wall_speed = wall.moves() ? wall.fastest(Box{x, x}.grown(m.radius)) : 0.0;
         const double reach = std::max(step_.reach, closing_horizon * step_.h * (ahead.norm() + wall_speed));
-        find_wall_points(wall, network_.patches.data() + pair.first, pair.patches, x, m.radius + reach, points_);
+        find_wall_points(wall, network_.list.patches.data() + pair.first, pair.patches, x, m.radius + reach, points_);
         std::erase_if(points_, [&](const WallPoint& at) {
             const Vec3 wall_ahead = wall_row(wall, at, x, m.radius).velocity + wall.gain();
             return !within_reach(at.distance - m.radius, at.normal.dot(ahead - wall_ahead), step_);
@@ -283,56 +286,65 @@ private:
 ContactSurvey assemble_wall_contacts(ContactNetwork& network, std::size_t tile, const State& state, const Model& model,
     const std::vector<PlacedWall>& walls, const StepConstants& step)
 {
-    TileAssembly assembly(network.wall_contacts, network.wall_carried, network.wall_slots_of_tile[tile], model, step);
+    TileAssembly assembly(network.contacts.walls, network.carried.walls, tile, model, step);
     WallDetection detection(network, state, model, walls, step);
-    for (auto p = network.wall_pairs_of_tile[tile]; p < network.wall_pairs_of_tile[tile + 1]; ++p) {
-        auto& pair = network.wall_pairs[p];
+    CandidateList& list = network.list;
+    for (auto p = list.wall_pairs_of_tile[tile]; p < list.wall_pairs_of_tile[tile + 1]; ++p) {
+        auto& pair = list.wall_pairs[p];
         if (!walls[pair.wall].is_piston()) detection.add_contacts(pair, assembly, [](const WallPoint&, const Vec3&) {});
     }
-    assembly.finish(tile);
-    return assembly.result();
+    return assembly.finish();
 }
 
 /// The contacts with all pistons, in the order of the wall pairs.
 ContactSurvey assemble_piston_contacts(ContactNetwork& network, const State& state, const Model& model,
     const std::vector<PlacedWall>& walls, const StepConstants& step)
 {
-    TileAssembly assembly(network.piston_contacts, network.wall_carried, 0, model, step);
+    TileAssembly assembly(network.contacts.pistons, network.carried.walls, 0, model, step);
     WallDetection detection(network, state, model, walls, step);
     std::size_t contacts = 0;
-    for (auto& pair : network.wall_pairs) {
+    for (auto& pair : network.list.wall_pairs) {
         const PlacedWall& wall = walls[pair.wall];
         if (!wall.is_piston()) continue;
         const Vec3 center = wall.pose()(model.pistons[wall.wall().piston].center);
         detection.add_contacts(pair, assembly, [&](const WallPoint& at, const Vec3& shift) {
             const Vec3 place = state.position[pair.sphere] + shift - state.radius(pair.sphere) * at.normal;
-            network.piston_arms[contacts++] = place - wall.image_of(static_cast<std::size_t>(at.patch)) - center;
+            network.contacts.piston_arms[contacts++] =
+                place - wall.image_of(static_cast<std::size_t>(at.patch)) - center;
         });
     }
-    assembly.finish(0);
-    return assembly.result();
+    return assembly.finish();
 }
 
 } // namespace
 
 ContactSurvey& ContactSurvey::operator+=(const ContactSurvey& other)
 {
-    contacts += other.contacts;
+    count += other.count;
     overlapping += other.overlapping;
     worst_overlap = std::max(worst_overlap, other.worst_overlap);
     overlap_sum += other.overlap_sum;
-    contact_energy += other.contact_energy;
+    stored_energy += other.stored_energy;
     return *this;
 }
 
-ContactSurvey assemble_contacts(
-    ContactNetwork& network, const State& state, const Model& model, const std::vector<PlacedWall>& walls)
+void ContactSurvey::then(const ContactSurvey& next)
 {
-    const StepConstants step(model);
+    const ContactSurvey before = *this;
+    *this = next;
+    worst_overlap = std::max(worst_overlap, before.worst_overlap);
+    stored_energy = before.stored_energy;
+}
+
+ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, const Model& model,
+    const StepLength& length, const std::vector<PlacedWall>& walls)
+{
+    const StepConstants step(model, length);
+    network.contacts.resize(network.list, model.physics);
     const auto assemble_spheres =
         model.periodicity.any() ? assemble_sphere_contacts<true> : assemble_sphere_contacts<false>;
-    const auto tiles = static_cast<std::int64_t>(network.tiles.count());
-    std::vector<ContactSurvey> surveys(network.tiles.count());
+    const auto tiles = static_cast<std::int64_t>(network.list.tiles.count());
+    std::vector<ContactSurvey> surveys(network.list.tiles.count());
 #pragma omp parallel for schedule(dynamic) if (tiles > 16)
     for (std::int64_t t = 0; t < tiles; ++t) {
         const auto tile = static_cast<std::size_t>(t);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/world/model.hpp"
 #include "core/world/placed_wall.hpp"
 #include "core/world/state.hpp"
@@ -11,20 +11,24 @@ namespace talus
 
 /// What assembly learns of the contacts on its way.
 struct ContactSurvey {
-    std::size_t contacts = 0;
-    std::size_t overlapping = 0;
-    double worst_overlap = 0.0;  ///< [m]
+    std::size_t count = 0;       ///< contacts in the problem, walls included
+    std::size_t overlapping = 0; ///< contacts with g < 0
+    double worst_overlap = 0.0;  ///< at the beginning of the step [m]
     double overlap_sum = 0.0;    ///< over the overlapping contacts [m]
-    double contact_energy = 0.0; ///< ½ k g² over the compliant contacts [J]
+    double stored_energy = 0.0;  ///< ½ k g² in the compliant contacts at the beginning of the step [J]
 
+    double mean_overlap() const { return overlapping ? overlap_sum / static_cast<double>(overlapping) : 0.0; } ///< [m]
+    /// The contacts of another tile of the same step.
     ContactSurvey& operator+=(const ContactSurvey& other);
+    /// The next sub-step: the worst of all, the contacts of the last, the energy at the beginning.
+    void then(const ContactSurvey& next);
 };
 
 /// Turns the candidates that touch, or will within this step and a half, into the contacts of this step's problem:
 /// normal, law (stabilisation.hpp), effective masses, and the impulse carried over, put back into the new tangent plane
 /// and cone. Reads v⁽⁰⁾: gravity has not been added yet. Tiles in parallel, pistons after them.
 /// @param walls as they stand now, with their velocity over the step
-ContactSurvey assemble_contacts(
-    ContactNetwork& network, const State& state, const Model& model, const std::vector<PlacedWall>& walls);
+ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, const Model& model, const StepLength& step,
+    const std::vector<PlacedWall>& walls);
 
 } // namespace talus

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
 
@@ -12,14 +12,17 @@ namespace talus
 struct ContactOutcome {
     double cone_violation = 0.0;      ///< worst |λ_t| − μ λ_n [N s], 0 if none
     Vec3 wall_impulse = Vec3::Zero(); ///< Σ λ over the contacts with walls that are not pistons [N s]
-    double wall_work = 0.0;           ///< what moving walls did on the spheres, Σ λ·w and rolling rows likewise [J]
-    std::size_t beyond_solution = 0;  ///< contacts that came to be so in this step (press_count.hpp)
+    double wall_work =
+        0.0; ///< that walls which move as told did on the spheres: Σ λ·w and Σ of rolling rows · spin [J]
+    std::size_t newly_jammed = 0; ///< contacts that came to be so in this step (TouchRecord)
 
+    /// Of another tile of the same step, or of the next sub-step.
     ContactOutcome& operator+=(const ContactOutcome& other);
 };
 
 /// Stores the impulses of the solved contacts in their slots (an impact carries none), counts for how long contacts
 /// have been pressed, and notes each sphere's last wall.
-ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model);
+/// @param h of the step [s]
+ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model, double h);
 
 } // namespace talus

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact.hpp"
+#include "core/contacts/contact.hpp"
 #include "core/world/model.hpp"
 
 #include <algorithm>
@@ -30,11 +30,11 @@ struct NormalLaw {
 /// What the law of a contact depends on.
 struct ContactEvent {
     ContactKind kind;
-    double gap;                   ///< g [m]
-    double u_n;                   ///< of v⁽⁰⁾, before gravity [m/s]
-    double inverse_mass_sum;      ///< W [1/kg]
-    double carried_normal;        ///< λ_n⁽⁰⁾ [N s]
-    bool beyond_solution = false; ///< press_count.hpp
+    double gap;              ///< g [m]
+    double u_n;              ///< of v⁽⁰⁾, before gravity [m/s]
+    double inverse_mass_sum; ///< W [1/kg]
+    double carried_normal;   ///< λ_n⁽⁰⁾ [N s]
+    bool jammed = false;     ///< TouchRecord
 };
 
 /// Σ_n of a resting contact of `matched`: that of the material's stiffness k, but no stiffer than N_min sweeps can
@@ -47,49 +47,53 @@ inline double matched_compliance(const ContactLaw& law, double inverse_mass_sum,
 /// What a sub-step takes of the feedback on overlap. The stiffness that sweeps can carry goes with 1/h², so with all of
 /// it a bed at rest would rise when its step is split. Shallow overlaps keep the stiffness of the whole step, and those
 /// five times as deep have that of the sub-step.
-inline double feedback_share(const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, double h)
+inline double feedback_share(
+    const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, const StepLength& step)
 {
-    const auto compliance_in = [&](double step) {
-        return matched_compliance(law, event.inverse_mass_sum, step, solver.min_sweeps);
+    const auto compliance_in = [&](double h) {
+        return matched_compliance(law, event.inverse_mass_sum, h, solver.min_sweeps);
     };
-    const double as_stiff =
-        compliance_in(h) / (compliance_in(solver.sub_steps * h) * solver.sub_steps * solver.sub_steps);
-    const double deep = std::clamp((-event.gap / solver.shallow_overlap - 1.0) / 4.0, 0.0, 1.0);
+    const double as_stiff = compliance_in(step.h()) / (compliance_in(step.parts * step.h()) * step.parts * step.parts);
+    const double deep = std::clamp((-event.gap / step.shallow_overlap - 1.0) / 4.0, 0.0, 1.0);
     return as_stiff + deep * (1.0 - as_stiff);
 }
 
 /// `matched` (the default): the note's own step, eq. (2), with a compliance that the sweeps can carry. Of the feedback
 /// on overlap, what exceeds the need of the carried impulse is capped, so that a deep overlap does not become a shot.
-inline NormalLaw matched_law(const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, double h)
+inline NormalLaw matched_law(
+    const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, const StepLength& step)
 {
+    const double h = step.h();
     const double compliance = matched_compliance(law, event.inverse_mass_sum, h, solver.min_sweeps);
-    const double share = solver.sub_steps == 1 ? 1.0 : feedback_share(event, law, solver, h);
+    const double share = step.is_split() ? feedback_share(event, law, solver, step) : 1.0;
     const double held = compliance * event.carried_normal;
     const double push_out = std::min(-4.0 / h * upsilon * share * event.gap - held, solver.push_out_speed);
     return {held + push_out + upsilon * event.u_n, compliance, share};
 }
 
-/// `projected`: rigid, u_n ≥ 0; overlap is removed by moving the spheres (position_projection.hpp). What is beyond
-/// solution yields: it has an impulse in proportion to the speed with which it is closed, and none when it is not.
-inline NormalLaw projected_law(const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, double h)
+/// `projected`: rigid, u_n ≥ 0; overlap is removed by moving the spheres (position_projection.hpp). A jammed contact
+/// yields: it has an impulse in proportion to the speed with which it is closed, and none when it is not.
+inline NormalLaw projected_law(
+    const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, const StepLength& step)
 {
-    if (!event.beyond_solution) return {0.0, 0.0};
-    return {0.0, matched_compliance(law, event.inverse_mass_sum, h, solver.min_sweeps)};
+    if (!event.jammed) return {0.0, 0.0};
+    return {0.0, matched_compliance(law, event.inverse_mass_sum, step.h(), solver.min_sweeps)};
 }
 
 /// The law of a contact by its kind: README (4).
-inline NormalLaw normal_law(const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, double h)
+inline NormalLaw normal_law(
+    const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, const StepLength& step)
 {
     switch (event.kind) {
     case ContactKind::impact:
         return {-law.restitution * event.u_n, 0.0};
     case ContactKind::open:
-        return {-event.gap / h, 0.0};
+        return {-event.gap / step.h(), 0.0};
     case ContactKind::resting:
         break;
     }
-    return solver.stabilisation == Stabilisation::matched ? matched_law(event, law, solver, h)
-                                                          : projected_law(event, law, solver, h);
+    return solver.stabilisation == Stabilisation::matched ? matched_law(event, law, solver, step)
+                                                          : projected_law(event, law, solver, step);
 }
 
 /// Which law a contact follows in this step.

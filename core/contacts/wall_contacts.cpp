@@ -48,16 +48,16 @@ void find_wall_points(const PlacedWall& wall, const std::int32_t* patches, std::
     }
 }
 
-void match_carried(ContactNetwork& network, WallPair& pair, const std::vector<WallPoint>& points)
+void match_carried(Carried& carried, WallPair& pair, const std::vector<WallPoint>& points)
 {
     const auto same = [&](std::uint32_t old, std::size_t k) {
-        return points[k].normal.dot(network.wall_carried_normal[pair.first + old]) > same_contact;
+        return points[k].normal.dot(carried.wall_normal[pair.first + old]) > same_contact;
     };
     if (points.size() == 1 && pair.carried == 1 && same(0, 0)) { // nearly always so
-        network.wall_carried_normal[pair.first] = points[0].normal;
+        carried.wall_normal[pair.first] = points[0].normal;
         return;
     }
-    const bool with_rolling = !network.wall_carried.rolling_impulse.empty();
+    const bool with_rolling = !carried.walls.rolling_impulse.empty();
     CarriedImpulses matched(points.size(), with_rolling);
     std::vector<std::uint8_t> taken(pair.carried, 0);
     std::vector<std::uint8_t> served(points.size(), 0);
@@ -67,7 +67,7 @@ void match_carried(ContactNetwork& network, WallPair& pair, const std::vector<Wa
         std::uint32_t best_old = 0;
         for (std::size_t k = 0; k < points.size(); ++k)
             for (std::uint32_t old = 0; old < pair.carried; ++old) {
-                const double alike = points[k].normal.dot(network.wall_carried_normal[pair.first + old]);
+                const double alike = points[k].normal.dot(carried.wall_normal[pair.first + old]);
                 if (served[k] || taken[old] || alike <= best) continue;
                 best = alike;
                 best_point = k;
@@ -75,11 +75,11 @@ void match_carried(ContactNetwork& network, WallPair& pair, const std::vector<Wa
             }
         if (best == same_contact) break;
         served[best_point] = taken[best_old] = 1;
-        matched.copy(best_point, network.wall_carried, pair.first + best_old);
+        matched.copy(best_point, carried.walls, pair.first + best_old);
     }
     for (std::size_t k = 0; k < points.size(); ++k) {
-        network.wall_carried.copy(pair.first + k, matched, k);
-        network.wall_carried_normal[pair.first + k] = points[k].normal;
+        carried.walls.copy(pair.first + k, matched, k);
+        carried.wall_normal[pair.first + k] = points[k].normal;
     }
     pair.carried = static_cast<std::uint32_t>(points.size());
 }

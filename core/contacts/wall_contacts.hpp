@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/candidates/candidate_list.hpp"
 #include "core/world/placed_wall.hpp"
 
 #include <vector>
@@ -17,6 +17,6 @@ void find_wall_points(const PlacedWall& wall, const std::int32_t* patches, std::
 
 /// Brings what a wall pair carries into the order of its new contacts: each takes the impulse of the old contact whose
 /// normal is nearest to its own, the nearest pairs first; the rest is dropped.
-void match_carried(ContactNetwork& network, WallPair& pair, const std::vector<WallPoint>& points);
+void match_carried(Carried& carried, WallPair& pair, const std::vector<WallPoint>& points);
 
 } // namespace talus

@@ -19,7 +19,7 @@ Eigen::VectorXd residual(const Iterate& x)
 
 } // namespace
 
-SolveReport solve_with_residual_update(Iterate& x, const SolveSettings& settings, const SweepObserver& observer)
+IterationReport solve_with_residual_update(Iterate& x, const SolveSettings& settings, const SweepObserver& observer)
 {
     const Problem& p = x.problem();
     const DiagonalBlocks D(x, LocalSolve::block);

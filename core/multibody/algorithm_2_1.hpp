@@ -12,6 +12,7 @@ namespace talus::multibody
 ///
 /// @param x where to start, and where it ends
 /// @pre all constraints are equalities; settings.local is not read
-SolveReport solve_with_residual_update(Iterate& x, const SolveSettings& settings, const SweepObserver& observer = {});
+IterationReport solve_with_residual_update(
+    Iterate& x, const SolveSettings& settings, const SweepObserver& observer = {});
 
 } // namespace talus::multibody

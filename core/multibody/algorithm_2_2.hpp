@@ -22,7 +22,7 @@ struct RunningError {
     double energy_left() const;
 };
 
-struct LocalResidualReport : SolveReport {
+struct LocalResidualReport : IterationReport {
     RunningError running_error;
 };
 

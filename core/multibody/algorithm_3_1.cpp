@@ -35,7 +35,7 @@ SweepSums ProjectedGaussSeidel<AnyIterate>::sweep(AnyIterate& x, const std::vect
 }
 
 template <class AnyIterate>
-SolveReport solve_projected(AnyIterate& x, const SolveSettings& settings, const SweepObserver& observer)
+IterationReport solve_projected(AnyIterate& x, const SolveSettings& settings, const SweepObserver& observer)
 {
     ProjectedGaussSeidel<AnyIterate> algorithm(x, settings.local, settings.omega);
     return repeat_until_small(
@@ -46,7 +46,7 @@ SolveReport solve_projected(AnyIterate& x, const SolveSettings& settings, const 
 
 template class ProjectedGaussSeidel<Iterate>;
 template class ProjectedGaussSeidel<AssembledIterate>;
-template SolveReport solve_projected(Iterate&, const SolveSettings&, const SweepObserver&);
-template SolveReport solve_projected(AssembledIterate&, const SolveSettings&, const SweepObserver&);
+template IterationReport solve_projected(Iterate&, const SolveSettings&, const SweepObserver&);
+template IterationReport solve_projected(AssembledIterate&, const SolveSettings&, const SweepObserver&);
 
 } // namespace talus::multibody

@@ -33,6 +33,6 @@ private:
 /// Sweeps until ε ≤ tolerance.
 /// @param x where to start, and where it ends
 template <class AnyIterate>
-SolveReport solve_projected(AnyIterate& x, const SolveSettings& settings, const SweepObserver& observer = {});
+IterationReport solve_projected(AnyIterate& x, const SolveSettings& settings, const SweepObserver& observer = {});
 
 } // namespace talus::multibody

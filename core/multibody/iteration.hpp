@@ -21,7 +21,7 @@ struct SolveSettings {
 };
 
 /// How a solve went.
-struct SolveReport {
+struct IterationReport {
     int sweeps = 0;
     double residual = 0.0; ///< ε
     bool converged = true; ///< ε ≤ tolerance, and not only because the impulses have grown
@@ -42,12 +42,12 @@ inline constexpr double most_left_of_start = 0.1;
 /// @param sweep changes the iterate in the order given and returns the sums of its changes; @param measure returns the
 /// sums of ε and changes nothing: it has the last word where the changes are small
 template <class Sweep, class Measure>
-SolveReport repeat_until_small(const SolveSettings& settings, std::size_t constraints, const SweepSums& at_rest,
+IterationReport repeat_until_small(const SolveSettings& settings, std::size_t constraints, const SweepSums& at_rest,
     Sweep&& sweep, Measure&& measure, const SweepObserver& observer)
 {
     Traversal traversal(settings.order, constraints, settings.seed);
     const double most_left = most_left_of_start * most_left_of_start * at_rest.change;
-    SolveReport report;
+    IterationReport report;
     const auto judge = [&](const SweepSums& error) {
         report.residual = relative_size(error);
         const bool small = report.residual <= settings.tolerance;

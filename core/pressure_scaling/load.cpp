@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pressure_scaling/load.hpp"
 
-#include "core/solver/tile_contacts.hpp"
+#include "core/solver/contact_kernel.hpp"
 
 #include <numeric>
 
@@ -58,7 +58,7 @@ void find_tile_loads(Load* next, ContactNetwork& network, std::size_t tile, cons
 {
     const Motion* motion = state.motion.data();
     for_each_contact(
-        network, tile, [&](const Contact& c, const ContactTerms& terms, const SideRows& rows, auto is_wall) {
+        network.contacts, tile, [&](const Contact& c, const ContactTerms& terms, const SideRows& rows, auto is_wall) {
             if (!is_loaded(c)) return;
             Load& load = *next++;
             load.place = place_of(c, state, grid);
@@ -73,11 +73,11 @@ void append_piston_loads(Loads& loads, const ContactNetwork& network, const Pist
 {
     // For its contacts a piston is a wall that moves as it does.
     using AtWalls = Rows<R::friction, R::spin, R::rolling, true>;
-    const ContactArrays& contacts = network.piston_contacts;
-    for (std::size_t k = 0; k < contacts.count[0]; ++k) {
+    const ContactArrays& contacts = network.contacts.pistons;
+    for (const std::size_t k : contacts.of_tile(0)) {
         const Contact& c = contacts.contact[k];
         const auto piston = model.walls[c.b].piston;
-        const WallRow wall = pistons.motion_at(static_cast<std::size_t>(piston), network.piston_arms[k]);
+        const WallRow wall = pistons.motion_at(static_cast<std::size_t>(piston), network.contacts.piston_arms[k]);
         RollingRow rolling = R::rolling ? contacts.rolling[k] : RollingRow{};
         const SideRows rows{&rolling, &wall};
         Load& load = loads.list.emplace_back();
@@ -92,13 +92,13 @@ template <class R>
 Loads find_loads(
     ContactNetwork& network, const PistonGroup& pistons, const State& state, const Model& model, const HatGrid& grid)
 {
-    const auto tiles = static_cast<std::int64_t>(network.tiles.count());
+    const auto tiles = static_cast<std::int64_t>(network.list.tiles.count());
     Loads loads;
-    loads.first.assign(network.tiles.count() + 1, 0);
+    loads.first.assign(network.list.tiles.count() + 1, 0);
 #pragma omp parallel for schedule(dynamic) if (tiles > 16)
     for (std::int64_t t = 0; t < tiles; ++t) {
         const auto tile = static_cast<std::size_t>(t);
-        for_each_contact(network, tile, [&](const Contact& c, const ContactTerms&, const SideRows&, auto) {
+        for_each_contact(network.contacts, tile, [&](const Contact& c, const ContactTerms&, const SideRows&, auto) {
             loads.first[tile + 1] += is_loaded(c);
         });
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/pressure_scaling/hat_grid.hpp"
 #include "core/solver/piston_group.hpp"
 #include "core/world/model.hpp"

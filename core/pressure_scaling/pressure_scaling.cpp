@@ -2,7 +2,7 @@
 #include "core/pressure_scaling/pressure_scaling.hpp"
 
 #include "core/pressure_scaling/galerkin.hpp"
-#include "core/solver/tile_contacts.hpp"
+#include "core/solver/contact_kernel.hpp"
 #include "core/solver/tile_crew.hpp"
 
 #include <algorithm>
@@ -57,23 +57,31 @@ void apply(ContactNetwork& network, const Loads& loads, const std::vector<double
 {
     const auto scale = [&](std::size_t tile) {
         auto k = loads.first[tile];
-        for_each_contact(network, tile, [&](Contact& c, const ContactTerms& terms, const SideRows& rows, auto is_wall) {
-            if (!is_loaded(c)) return;
-            const double share = growth[k++];
-            const Vec3 change = share * c.impulse;
-            c.impulse += change;
-            apply_impulse<is_wall(), R>(c, terms, change, motion);
-            if constexpr (R::rolling) {
-                const Vec3 rolling = share * rows.rolling->impulse;
-                rows.rolling->impulse += rolling;
-                apply_rolling_impulse<is_wall()>(c, rolling, motion);
-            }
-        });
+        for_each_contact(
+            network.contacts, tile, [&](Contact& c, const ContactTerms& terms, const SideRows& rows, auto is_wall) {
+                if (!is_loaded(c)) return;
+                const double share = growth[k++];
+                const Vec3 change = share * c.impulse;
+                c.impulse += change;
+                apply_impulse<is_wall(), R>(c, terms, change, motion);
+                if constexpr (R::rolling) {
+                    const Vec3 rolling = share * rows.rolling->impulse;
+                    rows.rolling->impulse += rolling;
+                    apply_rolling_impulse<is_wall()>(c, rolling, motion);
+                }
+            });
     };
-    with_tile_crew(network.tiles, [&](TileCrew& crew) { crew.color_by_color(scale); });
+    with_tile_crew(network.list.tiles, [&](TileCrew& crew) { crew.color_by_color(scale); });
 }
 
 } // namespace
+
+void ScalingReport::then(const ScalingReport& next)
+{
+    corrections += next.corrections;
+    refused += next.refused;
+    largest = std::max(largest, next.largest);
+}
 
 ScalingReport scale_pressure(ContactNetwork& network, PistonGroup& pistons, State& state, const Model& model)
 {
@@ -87,7 +95,7 @@ ScalingReport scale_pressure(ContactNetwork& network, PistonGroup& pistons, Stat
                                .cwiseMax(least_growth)
                                .cwiseMin(most_growth);
     const double step = line_search(energy, alpha);
-    if (step == 0.0) return {};
+    if (step == 0.0) return {.corrections = 1, .refused = 1};
 
     auto growth = growth_of_loads(loads, grid, energy, step * alpha);
     Motion* motion = state.motion.data();
@@ -96,7 +104,7 @@ ScalingReport scale_pressure(ContactNetwork& network, PistonGroup& pistons, Stat
         growth.erase(growth.begin(), growth.begin() + static_cast<std::ptrdiff_t>(loads.first_of_pistons()));
         pistons.scale(growth, motion);
     }
-    return {step, (step * alpha).cwiseAbs().maxCoeff()};
+    return {.corrections = 1, .largest = (step * alpha).cwiseAbs().maxCoeff()};
 }
 
 } // namespace talus

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/solver/piston_group.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
@@ -9,10 +9,13 @@
 namespace talus
 {
 
-/// How a correction went.
+/// How the corrections of a step went.
 struct ScalingReport {
-    double step = 0.0;    ///< t in (0, 1]; 0: refused, nothing has changed
+    int corrections = 0;  ///< asked for: one a step or sub-step in which anything is loaded
+    int refused = 0;      ///< of them, where the energy would have risen: nothing was changed
     double largest = 0.0; ///< max |t α|: 0.1 is a pressure corrected by a tenth
+
+    void then(const ScalingReport& next); ///< the next sub-step
 };
 
 /// In a step. The power λ·y of impacts and of contacts about to open is no lack of pressure; it goes first. Right after

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/step/time_step.hpp"
 #include "core/world/state.hpp"
 
@@ -20,9 +20,9 @@ public:
     ForceProfile(const State& state, const Vec3& up, std::size_t cuts);
 
     /// Of the last step: by walls first, then through the cuts from below [N].
-    /// @param contacts whose contacts are those of that step, and name spheres of this state
+    /// @param network whose contacts are those of that step, and name spheres of this state; @param time_step whole [s]
     std::vector<double> forces(
-        const State& state, const ContactNetwork& contacts, const StepReport& report, double time_step) const;
+        const State& state, const ContactNetwork& network, const StepReport& report, double time_step) const;
 
 private:
     Vec3 up_;

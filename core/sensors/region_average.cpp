@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sensors/region_average.hpp"
 
-#include "core/contacts/loaded_contacts.hpp"
-#include "core/contacts/sphere_load.hpp"
+#include "core/contacts/loads.hpp"
 #include "core/sensors/region_share.hpp"
 
 #include <limits>
@@ -49,7 +48,7 @@ struct Content {
 Content content_of(const Region& region, const Snapshot& now)
 {
     const State& state = now.state;
-    const auto loads = sphere_loads(now.contacts, state.count());
+    const auto loads = sphere_loads(now.network, state.count());
     const auto images = now.model.periodicity.neighbor_shifts();
     Content content;
     for (std::size_t i = 0; i < state.count(); ++i) {
@@ -88,15 +87,15 @@ Tensor contact_virial(const Region& region, const Snapshot& now)
         }
         return share * branch.norm();
     };
-    for_each_loaded_sphere_contact(now.contacts, [&](const Contact& c, const ContactGeometry& g) {
+    for_each_loaded_sphere_contact(now.network, [&](const Contact& c, const ContactGeometry& g) {
         const double length = inside(c.a, -(state.radius(c.a) + 0.5 * g.gap) * c.normal) +
                               inside(c.b, (state.radius(c.b) + 0.5 * g.gap) * c.normal);
         virial += length * c.impulse * c.normal.transpose();
     });
-    for_each_loaded_wall_contact(now.contacts, [&](const Contact& c, const ContactGeometry& g) {
+    for_each_loaded_wall_contact(now.network, [&](const Contact& c, const ContactGeometry& g) {
         virial += inside(c.a, -(state.radius(c.a) + g.gap) * c.normal) * c.impulse * c.normal.transpose();
     });
-    return virial / now.contacts.impulse_step;
+    return virial / now.network.carried.impulse_step;
 }
 
 } // namespace

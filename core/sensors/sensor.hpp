@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/archive.hpp"
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/step/time_step.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
@@ -37,7 +37,7 @@ struct Table {
 struct Snapshot {
     const State& state;
     const Model& model;
-    const ContactNetwork& contacts;
+    const ContactNetwork& network;
     const StepReport& report;
 };
 

@@ -2,10 +2,11 @@
 #pragma once
 
 #include "core/base/sweep_sums.hpp"
-#include "core/candidates/contact.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/world/state.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 namespace talus
 {
@@ -138,6 +139,34 @@ void relax(
             apply_rolling_impulse<wall>(c, rolling_change, motion);
         }
     }
+}
+
+/// Calls visit(contact, terms, rows, is_wall) for the contacts of one tile, those between spheres first.
+template <class Visit> void for_each_contact(StepContacts& contacts, std::size_t tile, Visit&& visit)
+{
+    const auto visit_all = [&](ContactArrays& arrays, auto is_wall) {
+        RollingRow* rolling = arrays.rolling.empty() ? nullptr : arrays.rolling.data();
+        const WallRow* wall = arrays.wall.empty() ? nullptr : arrays.wall.data();
+        for (const std::size_t k : arrays.of_tile(tile))
+            visit(arrays.contact[k], arrays.terms[k],
+                SideRows{rolling ? rolling + k : nullptr, wall ? wall + k : nullptr}, is_wall);
+    };
+    visit_all(contacts.spheres, std::false_type{});
+    visit_all(contacts.walls, std::true_type{});
+}
+
+template <bool with_moving_walls, class Work> auto with_rows(const ModelledPhysics& physics, Work&& work)
+{
+    if (physics.rolling) return work(Rows<true, true, true, with_moving_walls>{});
+    if (physics.spin) return work(Rows<true, true, false, with_moving_walls>{});
+    if (physics.friction) return work(Rows<true, false, false, with_moving_walls>{});
+    return work(Rows<false, false, false, with_moving_walls>{});
+}
+
+/// Calls work(Rows<…>{}) with what the scene needs.
+template <class Work> auto with_rows(const ModelledPhysics& physics, Work&& work)
+{
+    return physics.moving_walls ? with_rows<true>(physics, work) : with_rows<false>(physics, work);
 }
 
 } // namespace talus

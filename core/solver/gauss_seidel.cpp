@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/gauss_seidel.hpp"
 
-#include "core/solver/tile_contacts.hpp"
+#include "core/solver/contact_kernel.hpp"
 #include "core/solver/tile_crew.hpp"
 
 #include <algorithm>
@@ -20,23 +20,25 @@ template <class R, bool apply>
 SweepSums relax_tile(ContactNetwork& network, std::size_t tile, Motion* motion, double relaxation)
 {
     SweepSums sums;
-    for_each_contact(network, tile, [&](Contact& c, const ContactTerms& terms, const SideRows& rows, auto is_wall) {
-        relax<is_wall(), R, apply>(c, terms, rows, motion, relaxation, sums);
-    });
+    for_each_contact(
+        network.contacts, tile, [&](Contact& c, const ContactTerms& terms, const SideRows& rows, auto is_wall) {
+            relax<is_wall(), R, apply>(c, terms, rows, motion, relaxation, sums);
+        });
     return sums;
 }
 
 template <class R> SweepSums warm_start_tile(ContactNetwork& network, std::size_t tile, Motion* motion)
 {
     SweepSums sums;
-    for_each_contact(network, tile, [&](Contact& c, const ContactTerms& terms, const SideRows& rows, auto is_wall) {
-        apply_impulse<is_wall(), R>(c, terms, c.impulse, motion);
-        sums.size += terms.inverse_mass_sum * c.impulse.squaredNorm();
-        if constexpr (R::rolling) {
-            apply_rolling_impulse<is_wall()>(c, rows.rolling->impulse, motion);
-            sums.size += rows.rolling->impulse.squaredNorm() / rows.rolling->inertia;
-        }
-    });
+    for_each_contact(
+        network.contacts, tile, [&](Contact& c, const ContactTerms& terms, const SideRows& rows, auto is_wall) {
+            apply_impulse<is_wall(), R>(c, terms, c.impulse, motion);
+            sums.size += terms.inverse_mass_sum * c.impulse.squaredNorm();
+            if constexpr (R::rolling) {
+                apply_rolling_impulse<is_wall()>(c, rows.rolling->impulse, motion);
+                sums.size += rows.rolling->impulse.squaredNorm() / rows.rolling->inertia;
+            }
+        });
     return sums;
 }
 
@@ -61,9 +63,9 @@ struct PartialSums {
 
 template <class R> double apply_warm_start(ContactNetwork& network, Motion* motion)
 {
-    PartialSums sums(network.tiles.count());
+    PartialSums sums(network.list.tiles.count());
     const auto work = [&](std::size_t tile) { sums.of_tile[tile] = warm_start_tile<R>(network, tile, motion); };
-    with_tile_crew(network.tiles, [&](TileCrew& crew) { crew.color_by_color(work); });
+    with_tile_crew(network.list.tiles, [&](TileCrew& crew) { crew.color_by_color(work); });
     return sums.total(unrelaxed).size;
 }
 
@@ -79,8 +81,8 @@ void sweep(
 
 template <class R> void sweep_times(int count, ContactNetwork& network, PistonGroup& pistons, Motion* motion)
 {
-    PartialSums unused(network.tiles.count());
-    with_tile_crew(network.tiles, [&](TileCrew& crew) {
+    PartialSums unused(network.list.tiles.count());
+    with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
         for (int k = 0; k < count; ++k) sweep<R>(crew, network, pistons, motion, unrelaxed, unused);
     });
 }
@@ -89,7 +91,7 @@ template <class R>
 SolveReport solve(ContactNetwork& network, PistonGroup& pistons, Motion* motion, const SolverSettings& solver,
     double warm_size, int sweeps_made)
 {
-    const auto tiles = network.tiles.count();
+    const auto tiles = network.list.tiles.count();
     const auto residual = [&](const SweepSums& sums) {
         const double size = std::max(sums.size, warm_size);
         return sums.change == 0.0 ? 0.0 : std::sqrt(sums.change / size);
@@ -101,7 +103,7 @@ SolveReport solve(ContactNetwork& network, PistonGroup& pistons, Motion* motion,
     // columns took two to six times as many (hard case 35).
     const bool is_relaxed = !solver.pressure_scaling;
     SolveReport report;
-    with_tile_crew(network.tiles, [&](TileCrew& crew) {
+    with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
         // Every thread goes through the same loop with the same numbers.
         int sweeps = sweeps_made;
         double change = infinity, error = infinity;
@@ -129,6 +131,13 @@ SolveReport solve(ContactNetwork& network, PistonGroup& pistons, Motion* motion,
 }
 
 } // namespace
+
+void SolveReport::then(const SolveReport& next)
+{
+    sweeps += next.sweeps;
+    residual = std::max(residual, next.residual);
+    converged = converged && next.converged;
+}
 
 double apply_warm_start(
     ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion, const ModelledPhysics& physics)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/solver/piston_group.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
@@ -14,6 +14,8 @@ struct SolveReport {
     int sweeps = 0;
     double residual = 0.0; ///< ε
     bool converged = true; ///< ε ≤ tolerance
+
+    void then(const SolveReport& next); ///< the next sub-step: all sweeps, the worst residual
 };
 
 /// Warm start: v ← v + M⁻¹ Gᵀ λ⁰ with the impulses in the contacts (README (5); the note forgets it).

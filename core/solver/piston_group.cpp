@@ -18,8 +18,8 @@ using multibody::Constraint;
 class ProblemMaker
 {
 public:
-    ProblemMaker(const ContactNetwork& network, const State& state, const Model& model)
-        : contacts_(network.piston_contacts), arms_(network.piston_arms), state_(state), model_(model),
+    ProblemMaker(const ContactNetwork& network, const State& state, const Model& model, double h)
+        : contacts_(network.contacts.pistons), arms_(network.contacts.piston_arms), state_(state), model_(model), h_(h),
           rows_(rows_of_contact(model.physics)), body_of_sphere_(state.count(), unknown)
     {
     }
@@ -27,10 +27,10 @@ public:
     PistonProblem make()
     {
         for (std::size_t k = 0; k < model_.pistons.size(); ++k)
-            add_piston_body(made_.problem, model_.pistons[k], state_.pistons[k], model_, state_.time);
-        for (std::size_t k = 0; k < contacts_.count[0]; ++k) add_contact(k);
+            add_piston_body(made_.problem, model_.pistons[k], state_.pistons[k], model_.gravity, h_, state_.time);
+        for (const std::size_t k : contacts_.of_tile(0)) add_contact(k);
         for (std::size_t k = 0; k < model_.pistons.size(); ++k)
-            add_guide(made_.problem, k, model_.pistons[k], state_.pistons[k], model_, state_.time);
+            add_guide(made_.problem, k, model_.pistons[k], state_.pistons[k], h_, state_.time);
         set_warm_impulse();
         return std::move(made_);
     }
@@ -42,6 +42,7 @@ private:
     const std::vector<Vec3>& arms_;
     const State& state_;
     const Model& model_;
+    const double h_;   ///< of the step [s]
     const Index rows_; ///< of a contact
     PistonProblem made_;
     std::vector<std::size_t> body_of_sphere_;
@@ -76,7 +77,7 @@ private:
     {
         const auto& constraints = made_.problem.constraints();
         made_.warm_impulse.resize(made_.problem.rows());
-        for (std::size_t k = 0; k < contacts_.count[0]; ++k)
+        for (const std::size_t k : contacts_.of_tile(0))
             made_.warm_impulse.segment(constraints[k].first_row, rows_) =
                 impulse_in_rows(contacts_, k, made_.bases[k], rows_);
         for (std::size_t k = 0; k < model_.pistons.size(); ++k) {
@@ -86,16 +87,16 @@ private:
     }
 };
 
-PistonProblem make_problem(const ContactNetwork& network, const State& state, const Model& model)
+PistonProblem make_problem(const ContactNetwork& network, const State& state, const Model& model, double h)
 {
     if (model.pistons.empty()) return {};
-    return ProblemMaker(network, state, model).make();
+    return ProblemMaker(network, state, model, h).make();
 }
 
 } // namespace
 
-PistonGroup::PistonGroup(const ContactNetwork& network, const State& state, const Model& model)
-    : own_(make_problem(network, state, model)), iterate_(own_.problem),
+PistonGroup::PistonGroup(const ContactNetwork& network, const State& state, const Model& model, double h)
+    : own_(make_problem(network, state, model, h)), iterate_(own_.problem),
       algorithm_(iterate_, multibody::LocalSolve::sequential), sequence_(own_.problem.constraints().size())
 {
     std::iota(sequence_.begin(), sequence_.end(), std::size_t{0});
@@ -143,9 +144,9 @@ void PistonGroup::scale(const std::vector<double>& growth, Motion* motion)
 void PistonGroup::store(ContactNetwork& network, State& state) const
 {
     if (empty()) return;
-    auto& contacts = network.piston_contacts;
+    auto& contacts = network.contacts.pistons;
     const auto& impulse = iterate_.impulse();
-    for (std::size_t k = 0; k < contacts.count[0]; ++k) {
+    for (const std::size_t k : contacts.of_tile(0)) {
         const auto own = own_.problem.rows_of(k, impulse);
         contacts.contact[k].impulse = own_.bases[k] * own.head<contact_rows>();
         if (!contacts.rolling.empty())

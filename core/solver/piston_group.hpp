@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/sweep_sums.hpp"
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/multibody/algorithm_3_1.hpp"
 #include "core/world/state.hpp"
 
@@ -36,7 +36,8 @@ class PistonGroup
 public:
     /// Nothing where the model has no pistons. Reads v⁽⁰⁾ of the pistons.
     /// @pre the contacts of this step are assembled
-    PistonGroup(const ContactNetwork& network, const State& state, const Model& model);
+    /// @param h of the step [s]
+    PistonGroup(const ContactNetwork& network, const State& state, const Model& model, double h);
     PistonGroup(const PistonGroup&) = delete;
     PistonGroup& operator=(const PistonGroup&) = delete;
 

@@ -37,7 +37,7 @@ Vec3 way_of(const Piston& piston, const PlacedWall& began, const State& state)
     return state.pistons[began.wall().piston].pose(piston.center) - began.pose()(piston.center);
 }
 
-/// Likewise; the level goes with the piston.
+/// The level of a piston's surface goes with it.
 void separate_from_piston(
     const Contact& c, double wall_level, const Piston& piston, const PlacedWall& began, State& state, double share)
 {
@@ -56,20 +56,17 @@ void separate_from_piston(
 void project_positions(
     const ContactNetwork& network, State& state, const Model& model, const std::vector<PlacedWall>& walls, double share)
 {
-    const auto& spheres = network.sphere_contacts;
-    const auto& at_walls = network.wall_contacts;
+    const auto& [spheres, at_walls, pistons, arms] = network.contacts;
     const auto separate = [&](std::size_t tile) {
-        const auto first = network.pairs_of_tile[tile];
-        for (auto k = first; k < first + spheres.count[tile]; ++k)
+        for (const std::size_t k : spheres.of_tile(tile))
             separate_spheres(spheres.contact[k], state, model.periodicity, share);
-        const auto first_wall = network.wall_slots_of_tile[tile];
-        for (auto k = first_wall; k < first_wall + at_walls.count[tile]; ++k)
+        for (const std::size_t k : at_walls.of_tile(tile))
             separate_from_wall(at_walls.contact[k], at_walls.geometry[k].wall_level, state, share);
     };
-    with_tile_crew(network.tiles, [&](TileCrew& crew) { crew.color_by_color(separate); });
+    with_tile_crew(network.list.tiles, [&](TileCrew& crew) { crew.color_by_color(separate); });
 
-    const auto& pistons = network.piston_contacts;
-    for (std::size_t k = 0; model.physics.pistons && k < pistons.count[0]; ++k) {
+    if (!model.physics.pistons) return;
+    for (const std::size_t k : pistons.of_tile(0)) {
         const Contact& c = pistons.contact[k];
         const PlacedWall& wall = walls[c.b];
         separate_from_piston(c, pistons.geometry[k].wall_level, model.pistons[wall.wall().piston], wall, state, share);
@@ -84,14 +81,12 @@ void hold_at_walls(
         const double overlap = wall_level - c.normal.dot(state.position[c.a]);
         if (overlap > deepest) state.position[c.a] += (overlap - deepest) * c.normal;
     };
-    const auto& at_walls = network.wall_contacts;
-    for (std::size_t tile = 0; tile < network.tiles.count(); ++tile) {
-        const auto first = network.wall_slots_of_tile[tile];
-        for (auto k = first; k < first + at_walls.count[tile]; ++k)
-            hold(at_walls.contact[k], at_walls.geometry[k].wall_level);
-    }
-    const auto& pistons = network.piston_contacts;
-    for (std::size_t k = 0; model.physics.pistons && k < pistons.count[0]; ++k) {
+    const auto& at_walls = network.contacts.walls;
+    for (std::size_t tile = 0; tile < at_walls.tiles(); ++tile)
+        for (const std::size_t k : at_walls.of_tile(tile)) hold(at_walls.contact[k], at_walls.geometry[k].wall_level);
+    if (!model.physics.pistons) return;
+    const auto& pistons = network.contacts.pistons;
+    for (const std::size_t k : pistons.of_tile(0)) {
         const Contact& c = pistons.contact[k];
         const PlacedWall& began = walls[c.b];
         const Vec3 way = way_of(model.pistons[began.wall().piston], began, state);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/world/model.hpp"
 #include "core/world/placed_wall.hpp"
 #include "core/world/state.hpp"

@@ -91,15 +91,16 @@ VectorXd impulse_in_rows(const ContactArrays& arrays, std::size_t k, const Eigen
     return in_rows(basis, rows, arrays.contact[k].impulse, rolling);
 }
 
-void add_piston_body(Problem& problem, const Piston& piston, const PistonState& own, const Model& model, double time)
+void add_piston_body(
+    Problem& problem, const Piston& piston, const PistonState& own, const Vec3& gravity, double h, double time)
 {
     const Eigen::Matrix3d inertia = own.pose.rotation * piston.inertia * own.pose.rotation.transpose();
     MatrixXd mass = MatrixXd::Zero(6, 6);
     mass.topLeftCorner<3, 3>().diagonal().setConstant(piston.mass);
     mass.bottomRightCorner<3, 3>() = inertia;
-    const Vec3 force = piston.mass * model.gravity + piston.load_at(time) * piston.guide;
+    const Vec3 force = piston.mass * gravity + piston.load_at(time) * piston.guide;
     VectorXd momentum(6);
-    momentum << piston.mass * own.velocity + model.time_step * force, inertia * own.spin;
+    momentum << piston.mass * own.velocity + h * force, inertia * own.spin;
     problem.add_body(mass, momentum);
 }
 
@@ -112,10 +113,8 @@ MatrixXd piston_rows(const Eigen::Matrix3d& basis, Index rows, const Vec3& arm)
     return G;
 }
 
-void add_guide(
-    Problem& problem, std::size_t body, const Piston& piston, const PistonState& own, const Model& model, double time)
+void add_guide(Problem& problem, std::size_t body, const Piston& piston, const PistonState& own, double h, double time)
 {
-    const double h = model.time_step;
     const bool held = !piston.is_free(time);
     RowMatrix G = RowMatrix::Zero(held ? 6 : 5, 6);
     const Vec3 across = any_perpendicular(piston.guide);

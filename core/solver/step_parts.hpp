@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/multibody/problem.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
@@ -41,8 +41,9 @@ Eigen::VectorXd impulse_in_rows(
     const ContactArrays& arrays, std::size_t k, const Eigen::Matrix3d& basis, Eigen::Index rows);
 
 /// A piston with the velocity of its centre and its spin; p = M v⁽⁰⁾ + h f.
-void add_piston_body(
-    multibody::Problem& problem, const Piston& piston, const PistonState& own, const Model& model, double time);
+/// @param h of the step [s], which begins at this time [s]
+void add_piston_body(multibody::Problem& problem, const Piston& piston, const PistonState& own, const Vec3& gravity,
+    double h, double time);
 
 /// What a piston contributes to the rows of a contact that lies at `arm` from its centre: −(V + Ω × arm), and −Ω.
 Eigen::MatrixXd piston_rows(const Eigen::Matrix3d& basis, Eigen::Index rows, const Vec3& arm);
@@ -50,7 +51,7 @@ Eigen::MatrixXd piston_rows(const Eigen::Matrix3d& basis, Eigen::Index rows, con
 /// The guide of a piston: holonomic rows, eq. (2) of the note with τ = 2h and without compliance, for two displacements
 /// across its axis, three turns and, until the piston is released, the displacement along its axis.
 /// @param body the piston's number in the problem
-void add_guide(multibody::Problem& problem, std::size_t body, const Piston& piston, const PistonState& own,
-    const Model& model, double time);
+void add_guide(
+    multibody::Problem& problem, std::size_t body, const Piston& piston, const PistonState& own, double h, double time);
 
 } // namespace talus

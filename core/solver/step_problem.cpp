@@ -22,7 +22,8 @@ public:
         for (const Motion& motion : state.motion)
             add_sphere_body(stated_.problem, motion, model.physics.spin, model.time_step * model.gravity);
         for (std::size_t k = 0; k < model.pistons.size(); ++k)
-            add_piston_body(stated_.problem, model.pistons[k], state.pistons[k], model, state.time);
+            add_piston_body(
+                stated_.problem, model.pistons[k], state.pistons[k], model.gravity, model.time_step, state.time);
     }
 
     void add_sphere_contact(const ContactArrays& arrays, std::size_t k)
@@ -49,7 +50,7 @@ public:
     {
         for (std::size_t k = 0; k < model_.pistons.size(); ++k) {
             const PistonState& own = state_.pistons[k];
-            add_guide(stated_.problem, state_.count() + k, model_.pistons[k], own, model_, state_.time);
+            add_guide(stated_.problem, state_.count() + k, model_.pistons[k], own, model_.time_step, state_.time);
             append_warm(own.guide_impulse.head(stated_.problem.constraints().back().rows));
         }
     }
@@ -85,19 +86,16 @@ private:
 
 } // namespace
 
-StepProblem make_step_problem(const State& state, const ContactNetwork& contacts, const Model& model)
+StepProblem make_step_problem(const State& state, const ContactNetwork& network, const Model& model)
 {
     Statement statement(state, model);
-    for (std::size_t tile = 0; tile < contacts.tiles.count(); ++tile) {
-        const auto& [spheres, walls] = std::tie(contacts.sphere_contacts, contacts.wall_contacts);
-        const std::size_t first_pair = contacts.pairs_of_tile[tile], first_slot = contacts.wall_slots_of_tile[tile];
-        for (std::size_t k = first_pair; k < first_pair + spheres.count[tile]; ++k)
-            statement.add_sphere_contact(spheres, k);
-        for (std::size_t k = first_slot; k < first_slot + walls.count[tile]; ++k) statement.add_wall_contact(walls, k);
+    const auto& [spheres, walls, pistons, arms] = network.contacts;
+    for (std::size_t tile = 0; tile < spheres.tiles(); ++tile) {
+        for (const std::size_t k : spheres.of_tile(tile)) statement.add_sphere_contact(spheres, k);
+        for (const std::size_t k : walls.of_tile(tile)) statement.add_wall_contact(walls, k);
     }
     if (model.physics.pistons)
-        for (std::size_t k = 0; k < contacts.piston_contacts.count[0]; ++k)
-            statement.add_piston_contact(contacts.piston_contacts, k, contacts.piston_arms[k]);
+        for (const std::size_t k : pistons.of_tile(0)) statement.add_piston_contact(pistons, k, arms[k]);
     statement.add_guides();
     return statement.finished();
 }

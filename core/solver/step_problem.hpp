@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/multibody/problem.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
@@ -20,7 +20,7 @@ struct StepProblem {
 
 /// States the problem that a step is about to solve. The rows of a contact are its normal n (from b to a), two
 /// tangents, and two axes of rolling where the scene has rolling resistance. Prescribed velocities of walls stand in q.
-/// @pre begin_step has assembled the contacts; `state` has the velocities v⁽⁰⁾
-StepProblem make_step_problem(const State& state, const ContactNetwork& contacts, const Model& model);
+/// @pre prepare_step has assembled the contacts; `state` has the velocities v⁽⁰⁾
+StepProblem make_step_problem(const State& state, const ContactNetwork& network, const Model& model);
 
 } // namespace talus

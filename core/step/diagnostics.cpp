@@ -22,17 +22,18 @@ std::optional<Incident::Kind> incident_of(const State& state, const Model& model
     return std::nullopt;
 }
 
-StateSurvey survey_block(const State& state, const Model& model, std::size_t begin, std::size_t end)
+StateSurvey survey_block(
+    const State& state, const Model& model, const StepLength& step, std::size_t begin, std::size_t end)
 {
     StateSurvey survey;
     const Vec3 along = model.periodicity.part_along(model.gravity); // there is no height on these axes
-    const double whole_step = model.time_step * model.solver.sub_steps;
+    const double whole_step = step.h() * step.parts;
     for (std::size_t i = begin; i < end; ++i) {
         const auto& m = state.motion[i];
         const double speed = m.velocity.norm();
         survey.kinetic_energy += kinetic_energy(m);
         survey.potential_energy -= (model.gravity - along).dot(state.position[i]) / m.inverse_mass;
-        survey.gravity_work += model.time_step * along.dot(m.velocity) / m.inverse_mass;
+        survey.gravity_work += step.h() * along.dot(m.velocity) / m.inverse_mass;
         survey.fastest_speed = std::max(survey.fastest_speed, speed);
         if (speed * whole_step > 0.2 * m.radius) ++survey.long_moves;
         if (const auto kind = incident_of(state, model, i))
@@ -50,18 +51,18 @@ std::optional<Incident::Kind> incident_of(const PistonState& state, const Vec3& 
     return std::nullopt;
 }
 
-/// Of the smallest spheres that it may meet.
+/// A piston that moves further in a whole step has made a long move; in smallest diameters.
 constexpr double longest_piston_move = 0.1;
 
-void survey_piston(const Piston& piston, const PistonState& state, const Model& model, StateSurvey& survey)
+void survey_piston(
+    const Piston& piston, const PistonState& state, const Model& model, const StepLength& step, StateSurvey& survey)
 {
     const Vec3 center = state.pose(piston.center);
     const double speed = state.velocity.norm();
     survey.kinetic_energy += kinetic_energy(piston, state);
     survey.potential_energy -= piston.mass * model.gravity.dot(center);
     survey.fastest_speed = std::max(survey.fastest_speed, speed);
-    if (speed * model.time_step * model.solver.sub_steps > longest_piston_move * model.min_diameter)
-        ++survey.long_moves;
+    if (speed * step.h() * step.parts > longest_piston_move * model.min_diameter) ++survey.long_moves;
     if (const auto kind = incident_of(state, center, model))
         survey.incidents.push_back({*kind, -1, center, speed, static_cast<std::int32_t>(piston.wall)});
 }
@@ -106,7 +107,18 @@ Vec3 angular_momentum(const State& state)
     return sum;
 }
 
-StateSurvey survey_state(const State& state, const Model& model)
+void StateSurvey::then(StateSurvey next)
+{
+    next.gravity_work += gravity_work;
+    next.load_work += load_work;
+    next.fastest_speed = std::max(next.fastest_speed, fastest_speed);
+    next.long_moves = std::max(next.long_moves, long_moves);
+    add_incidents(incidents, std::move(next.incidents));
+    next.incidents = std::move(incidents);
+    *this = std::move(next);
+}
+
+StateSurvey survey_state(const State& state, const Model& model, const StepLength& step)
 {
     const std::size_t blocks = (state.count() + block - 1) / block;
     std::vector<StateSurvey> of_block(blocks);
@@ -114,7 +126,7 @@ StateSurvey survey_state(const State& state, const Model& model)
     for (std::int64_t b = 0; b < static_cast<std::int64_t>(blocks); ++b) {
         const auto begin = static_cast<std::size_t>(b) * block;
         of_block[static_cast<std::size_t>(b)] =
-            survey_block(state, model, begin, std::min(begin + block, state.count()));
+            survey_block(state, model, step, begin, std::min(begin + block, state.count()));
     }
     StateSurvey all;
     for (const auto& part : of_block) {
@@ -126,7 +138,7 @@ StateSurvey survey_state(const State& state, const Model& model)
         all.incidents.insert(all.incidents.end(), part.incidents.begin(), part.incidents.end());
     }
     for (std::size_t k = 0; k < model.pistons.size(); ++k)
-        survey_piston(model.pistons[k], state.pistons[k], model, all);
+        survey_piston(model.pistons[k], state.pistons[k], model, step, all);
     return all;
 }
 

@@ -3,14 +3,9 @@
 
 #include "core/candidates/candidate_search.hpp"
 #include "core/candidates/curve_order.hpp"
-#include "core/contacts/assembly.hpp"
-#include "core/contacts/carry.hpp"
 #include "core/contacts/law.hpp"
-#include "core/pressure_scaling/pressure_scaling.hpp"
-#include "core/solver/gauss_seidel.hpp"
 #include "core/solver/piston_group.hpp"
 #include "core/solver/position_projection.hpp"
-#include "core/step/press.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +19,22 @@ namespace
 constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
 
 /// Brings the spheres into the order of a space-filling curve now and then, for the sake of the cache.
-void renumber_along_curve(State& state, ContactNetwork& contacts, const Model& model)
+void renumber_along_curve(State& state, ContactNetwork& network, const Model& model)
 {
     if (state.steps % renumbering_interval != 0 || state.count() < 2) return;
-    contacts.listed_box.resize(state.count());
+    network.list.listed_box.resize(state.count());
     const auto order = curve_order(state.position);
     renumber_spheres(state, order, state.count());
-    renumber_candidates(contacts, state, model, order);
+    renumber_candidates(network.list, network.carried, state, model, order);
+}
+
+/// The carried impulses of contacts and guides for a step of this length. Returns by how much they were scaled.
+double scale_impulses(State& state, Carried& carried, double h)
+{
+    const double scale = carried.scale_to(h);
+    if (scale != 1.0)
+        for (PistonState& piston : state.pistons) piston.guide_impulse *= scale;
+    return scale;
 }
 
 /// v⁽¹⁾ = v⁽⁰⁾ + h g.
@@ -54,7 +58,7 @@ void move_spheres(State& state, double h)
     }
 }
 
-/// Pistons likewise. Returns the work that their loads did on the way [J].
+/// Moves pistons along their guides with their velocity. Returns the work that their loads did on the way [J].
 double move_pistons(State& state, const std::vector<Piston>& pistons, double h)
 {
     double work = 0.0;
@@ -81,46 +85,6 @@ void mark_leaving(State& state, const std::vector<Region>& outlets)
             if (outlet.contains(state.position[i])) state.leaving[i] = 1;
 }
 
-StepReport make_report(const BegunStep& begun, const ContactNetwork& contacts, const SolveReport& solve,
-    const ContactOutcome& outcome, std::vector<WallLoad> loads, double load_work, StateSurvey bodies)
-{
-    const ContactSurvey& survey = begun.survey;
-    const auto overlapping = static_cast<double>(survey.overlapping);
-    return {.sweeps = solve.sweeps,
-        .residual = solve.residual,
-        .converged = solve.converged,
-        .candidates = contacts.pairs.size() + contacts.wall_pairs.size(),
-        .contacts = survey.contacts,
-        .overlapping = survey.overlapping,
-        .worst_overlap = survey.worst_overlap,
-        .mean_overlap = survey.overlapping ? survey.overlap_sum / overlapping : 0.0,
-        .cone_violation = outcome.cone_violation,
-        .kinetic_energy = bodies.kinetic_energy,
-        .potential_energy = bodies.potential_energy,
-        .gravity_work = bodies.gravity_work,
-        .contact_energy = survey.contact_energy,
-        .fastest_speed = bodies.fastest_speed,
-        .long_moves = bodies.long_moves,
-        .searched = begun.searched,
-        .wall_impulse = outcome.wall_impulse,
-        .wall_work = outcome.wall_work,
-        .load_work = load_work,
-        .wall_loads = std::move(loads),
-        .incidents = std::move(bodies.incidents)};
-}
-
-/// Impulses go with the length of the step: those of a step of another length are scaled. Returns by how much.
-double scale_impulses(State& state, ContactNetwork& contacts, double h)
-{
-    const double scale = contacts.impulse_step < infinity ? h / contacts.impulse_step : 1.0;
-    contacts.impulse_step = h;
-    if (scale == 1.0) return scale;
-    contacts.pair_carried.scale(scale);
-    contacts.wall_carried.scale(scale);
-    for (PistonState& piston : state.pistons) piston.guide_impulse *= scale;
-    return scale;
-}
-
 using MovingBodies = std::tuple<std::vector<Motion>, std::vector<PistonState>>;
 
 /// The speed of the fastest sphere or piston; not asked for where nothing is too fast.
@@ -135,48 +99,65 @@ double fastest_of(const State& state, double too_fast)
 
 } // namespace
 
-BegunStep begin_step(State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer)
+void SearchReport::then(const SearchReport& next)
 {
-    BegunStep begun;
+    candidates = next.candidates;
+    searched += next.searched;
+}
+
+void StepReport::then(StepReport next)
+{
+    search.then(next.search);
+    contacts.then(next.contacts);
+    solve.then(next.solve);
+    scaling.then(next.scaling);
+    outcome += next.outcome;
+    bodies.then(std::move(next.bodies));
+    for (std::size_t w = 0; w < wall_loads.size(); ++w) wall_loads[w] += next.wall_loads[w];
+}
+
+PreparedStep prepare_step(
+    State& state, ContactNetwork& network, const Model& model, const StepLength& step, const PhaseObserver& observer)
+{
+    PreparedStep prepared;
 
     // Which spheres and walls can touch during this step?
     if (observer) observer(Phase::search);
-    begun.impulse_scale = scale_impulses(state, contacts, model.time_step);
-    renumber_along_curve(state, contacts, model);
-    begun.walls = place_walls(model, state, model.time_step);
-    begun.searched = update_candidates(contacts, state, model, begun.walls);
+    prepared.impulse_scale = scale_impulses(state, network.carried, step.h());
+    renumber_along_curve(state, network, model);
+    prepared.walls = place_walls(model, state, step.h());
+    prepared.search.searched = update_candidates(network.list, network.carried, state, model, step.h(), prepared.walls);
+    prepared.search.candidates = network.list.size();
 
     // Which do, under which law, and with what impulse to begin with?
     if (observer) observer(Phase::assembly);
-    begun.survey = assemble_contacts(contacts, state, model, begun.walls);
-    return begun;
+    prepared.contacts = assemble_contacts(network, state, model, step, prepared.walls);
+    return prepared;
 }
 
-StepReport advance(State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer)
+std::optional<StepReport> advance_once(const StepLength& step, double fastest, State& state, ContactNetwork& network,
+    const Model& model, const PhaseObserver& observer)
 {
-    return *advance_unless_faster(infinity, state, contacts, model, observer);
-}
-
-std::optional<StepReport> advance_unless_faster(
-    double fastest, State& state, ContactNetwork& contacts, const Model& model, const PhaseObserver& observer)
-{
-    const double h = model.time_step;
+    const double h = step.h();
     const auto enter = [&](Phase phase) {
         if (observer) observer(phase);
     };
 
     // Who touches whom, and under which law?
-    const BegunStep begun = begin_step(state, contacts, model, observer);
-    PistonGroup pistons(contacts, state, model);
+    const PreparedStep prepared = prepare_step(state, network, model, step, observer);
+    PistonGroup pistons(network, state, model, h);
     const MovingBodies before = fastest < infinity ? MovingBodies{state.motion, state.pistons} : MovingBodies{};
+    StepReport report;
+    report.search = prepared.search;
+    report.contacts = prepared.contacts;
 
     // The velocity if nothing touched: v⁽¹⁾ = v⁽⁰⁾ + h M⁻¹ f.
     // Then the impulses of the last step: v ← v + M⁻¹ Gᵀ λ⁰.
     enter(Phase::warm_start);
     add_gravity(state.motion, model.gravity, h);
-    double warm_size = apply_warm_start(contacts, pistons, state.motion, model.physics);
+    double warm_size = apply_warm_start(network, pistons, state.motion, model.physics);
     // The impulse of an impact does not grow with the step: it must not loosen the measure of the others.
-    if (begun.impulse_scale > 1.0) warm_size /= begun.impulse_scale * begun.impulse_scale;
+    if (prepared.impulse_scale > 1.0) warm_size /= prepared.impulse_scale * prepared.impulse_scale;
 
     // Where the load has changed, the pressure changes with it, through the whole bed at once: λ ← θ λ. First what is
     // local must be out of the way: contacts that open, and impacts.
@@ -184,41 +165,38 @@ std::optional<StepReport> advance_unless_faster(
     int sweeps = 0;
     if (model.solver.pressure_scaling) {
         sweeps = std::min(sweeps_before_scaling, model.solver.max_sweeps - 1);
-        sweep_contacts(sweeps, contacts, pistons, state.motion, model.physics);
-        scale_pressure(contacts, pistons, state, model);
+        sweep_contacts(sweeps, network, pistons, state.motion, model.physics);
+        report.scaling = scale_pressure(network, pistons, state, model);
     }
 
     // The contact impulses: every contact in turn until all laws hold.
-    const auto solve = solve_contacts(contacts, pistons, state.motion, model.physics, model.solver, warm_size, sweeps);
-    pistons.store(contacts, state);
+    report.solve = solve_contacts(network, pistons, state.motion, model.physics, model.solver, warm_size, sweeps);
+    pistons.store(network, state);
     if (fastest_of(state, fastest) > fastest) {
         std::tie(state.motion, state.pistons) = before;
         return std::nullopt;
     }
-
-    auto loads = model.physics.wall_loads ? wall_loads(contacts, state, model.walls.size()) : std::vector<WallLoad>{};
+    if (model.physics.wall_loads) report.wall_loads = wall_loads(network, state, model.walls.size());
 
     // Positions with the new velocity: x ← x + h v.
     enter(Phase::positions);
     move_spheres(state, h);
     const double load_work = move_pistons(state, model.pistons, h);
     if (model.solver.stabilisation == Stabilisation::projected)
-        project_positions(contacts, state, model, begun.walls, projected_share);
-    if (model.solver.sub_steps > 1) hold_at_walls(contacts, state, model, begun.walls);
+        project_positions(network, state, model, prepared.walls, projected_share);
+    if (step.is_split()) hold_at_walls(network, state, model, prepared.walls);
     wrap_positions(state, model.periodicity);
-    if (model.solver.sub_steps == 1)
-        state.time = static_cast<double>(++state.steps) * h;
-    else
-        state.time += h;
+    state.time = step.is_split() ? state.time + h : static_cast<double>(++state.steps) * h;
 
     // What there is to tell, and what the next step begins with.
     enter(Phase::report);
     mark_leaving(state, model.outlets);
-    const auto outcome = carry_impulses(contacts, state, model);
-    StateSurvey bodies = survey_state(state, model);
-    if (outcome.beyond_solution > 0)
-        for (Incident& press : find_presses(contacts, state, model)) bodies.incidents.push_back(std::move(press));
-    return make_report(begun, contacts, solve, outcome, std::move(loads), load_work, std::move(bodies));
+    report.outcome = carry_impulses(network, state, model, h);
+    report.bodies = survey_state(state, model, step);
+    report.bodies.load_work = load_work;
+    if (report.outcome.newly_jammed > 0)
+        for (Incident& press : find_presses(network, state, model)) report.bodies.incidents.push_back(std::move(press));
+    return report;
 }
 
 } // namespace talus

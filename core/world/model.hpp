@@ -25,10 +25,17 @@ struct SolverSettings {
     double restitution_threshold = 3.0; ///< impacts slower than this times gravity × step do not rebound
     double push_out_speed = infinity;   ///< cap on the speed with which overlap is undone [m/s]
     bool pressure_scaling = false;      ///< before the sweeps, see pressure_scaling/; with `projected` only
+};
 
-    // Where a step is split (sub_steps.hpp) and the model's time step is that of a sub-step:
-    int sub_steps = 1;            ///< of the whole step, this being one
-    double shallow_overlap = 0.0; ///< up to this a contact is no stiffer than in a whole step [m]
+/// How long a step is: the model's time step, or one of the equal sub-steps into which it is split where something is
+/// too fast for it.
+struct StepLength {
+    double whole = 0.0;           ///< the model's time step [s]
+    int parts = 1;                ///< sub-steps
+    double shallow_overlap = 0.0; ///< where it is split: up to this, contacts are no stiffer than in the whole step [m]
+
+    double h() const { return whole / parts; } ///< of this step or sub-step [s]
+    bool is_split() const { return parts > 1; }
 };
 
 /// What the scene needs; the rest does not exist in the step.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/run/frames.hpp"
 
-#include "core/contacts/loaded_contacts.hpp"
-#include "core/contacts/sphere_load.hpp"
+#include "core/contacts/loads.hpp"
 #include "core/world/placed_wall.hpp"
 #include "io/run/poly_data.hpp"
 #include "io/run/run_files.hpp"
@@ -59,7 +58,7 @@ std::vector<std::size_t> shown_spheres(const State& state, const OutputChoice& o
 std::vector<ContactLine> loaded_contacts(const Simulation& simulation)
 {
     const State& state = simulation.state;
-    const double h = simulation.contacts.impulse_step;
+    const double h = simulation.network.carried.impulse_step;
     std::vector<ContactLine> lines;
     const auto add = [&](const Contact& c, const ContactGeometry& g, double length, std::int64_t id_b, int wall) {
         const Vec3& x = state.position[c.a];
@@ -68,10 +67,10 @@ std::vector<ContactLine> loaded_contacts(const Simulation& simulation)
             lines.push_back({x, x - length * c.normal, c.impulse / h, c.impulse.dot(c.normal) / h, g.gap, state.id[c.a],
                 id_b, wall});
     };
-    for_each_loaded_sphere_contact(simulation.contacts, [&](const Contact& c, const ContactGeometry& g) {
+    for_each_loaded_sphere_contact(simulation.network, [&](const Contact& c, const ContactGeometry& g) {
         add(c, g, state.radius(c.a) + state.radius(c.b) + g.gap, state.id[c.b], -1);
     });
-    for_each_loaded_wall_contact(simulation.contacts,
+    for_each_loaded_wall_contact(simulation.network,
         [&](const Contact& c, const ContactGeometry& g) { add(c, g, state.radius(c.a) + g.gap, -1, c.b); });
     return lines;
 }
@@ -103,8 +102,8 @@ void add_particle_arrays(vtkPointData& data, const Simulation& simulation, const
     if (asked("material"))
         add_integers(data, "material", count, [&](std::size_t k) { return state.material[shown[k]]; });
     if (!asked("force") && !asked("coordination")) return;
-    const auto loads = sphere_loads(simulation.contacts, state.count());
-    const double h = simulation.contacts.impulse_step;
+    const auto loads = sphere_loads(simulation.network, state.count());
+    const double h = simulation.network.carried.impulse_step;
     if (asked("force")) add_vectors(data, "force", count, [&](std::size_t k) { return loads[shown[k]].impulse / h; });
     if (asked("coordination"))
         add_integers(data, "coordination", count, [&](std::size_t k) { return loads[shown[k]].contacts; });

@@ -68,9 +68,9 @@ void run_steps(benchmark::State& run, Simulation& simulation)
         phase = next;
     };
     for (auto _ : run) {
-        const auto report = step(simulation, clock);
-        updates += static_cast<double>(report.sweeps) * static_cast<double>(report.contacts);
-        sweeps += report.sweeps;
+        const auto report = advance(simulation, clock);
+        updates += static_cast<double>(report.solve.sweeps) * static_cast<double>(report.contacts.count);
+        sweeps += report.solve.sweeps;
     }
     clock(Phase::report);
     double all = 0.0;
@@ -84,14 +84,14 @@ void run_steps(benchmark::State& run, Simulation& simulation)
 void bed_at_rest(benchmark::State& run)
 {
     auto simulation = build_scene(silo(run.range(0), infinity));
-    while (simulation.state.time < 0.4) step(simulation);
+    while (simulation.state.time < 0.4) advance(simulation);
     run_steps(run, simulation);
 }
 
 void discharge(benchmark::State& run)
 {
     auto simulation = build_scene(silo(run.range(0), 0.3));
-    while (simulation.state.time < 0.5) step(simulation);
+    while (simulation.state.time < 0.5) advance(simulation);
     run_steps(run, simulation);
 }
 
@@ -102,7 +102,7 @@ void discharge_with(benchmark::State& run, double friction, bool rotation)
     scene.contact[0].friction = friction;
     scene.world.rotation = rotation;
     auto simulation = build_scene(scene);
-    while (simulation.state.time < 0.5) step(simulation);
+    while (simulation.state.time < 0.5) advance(simulation);
     run_steps(run, simulation);
 }
 

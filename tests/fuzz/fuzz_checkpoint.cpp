@@ -51,7 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
         archive(resumed);
         for (int k = 0; k < 3; ++k) {
             const auto report = talus::step(resumed);
-            if (!report.incidents.empty()) break; // a run ends there
+            if (!report.bodies.incidents.empty()) break; // a run ends there
             for (const auto& sensor : resumed.sensors) sensor->sample(snapshot(resumed, report));
         }
     } catch (const talus::InputError&) {

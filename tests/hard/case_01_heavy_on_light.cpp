@@ -61,13 +61,13 @@ Outcome watch(World world, int light, double weight)
     double sweeps = 0.0;
     for (int k = 1; k <= steps; ++k) {
         world.step();
-        const double error = std::abs(world.report.wall_impulse.z() / time_step - weight) / weight;
-        sweeps += world.report.sweeps;
+        const double error = std::abs(world.report.outcome.wall_impulse.z() / time_step - weight) / weight;
+        sweeps += world.report.solve.sweeps;
         if (error > 0.05) out.sweeps = sweeps;
         for (int id = 0; id < light; ++id)
             out.way = std::max(out.way, (world.position(id) - begin.position(id)).norm() / d);
         if (k * time_step < duration - watched) continue;
-        out.overlap = std::max(out.overlap, world.report.worst_overlap / d);
+        out.overlap = std::max(out.overlap, world.report.contacts.worst_overlap / d);
         out.floor_error = std::max(out.floor_error, error);
     }
     return out;

@@ -67,7 +67,7 @@ ArchRun run_arch(double friction, Stabilisation law, bool rotation, int steps, b
     ArchRun run;
     std::vector<Vec3> settled;
     for (int k = 0; k < steps; ++k) {
-        if (cold) world.contacts = {};
+        if (cold) world.network = {};
         world.step();
         run.fall = (top - world.position(keystone).z()) / d;
         if (run.fall < 0.5) run.stood = world.state.time;
@@ -76,7 +76,7 @@ ArchRun run_arch(double friction, Stabilisation law, bool rotation, int steps, b
             for (int id = 0; id < stones; ++id) settled.push_back(world.position(id));
         for (int id = 0; id < stones; ++id)
             run.drift = std::max(run.drift, (world.position(id) - settled[id]).norm() / d);
-        run.load_error = std::max(run.load_error, std::abs(world.report.wall_impulse.z() / h / weight - 1.0));
+        run.load_error = std::max(run.load_error, std::abs(world.report.outcome.wall_impulse.z() / h / weight - 1.0));
     }
     return run;
 }
@@ -156,7 +156,7 @@ TEST_CASE("4 sphere in a wedge", "[hard][quick]")
                     const Vec3 place = world.position();
                     world.model.gravity.setZero();
                     world.step();
-                    const double stored = world.report.contact_energy;
+                    const double stored = world.report.contacts.stored_energy;
                     world.step(4999);
                     const double speed = world.velocity().norm() / (push * standard_gravity * h);
                     if (share > 1) {

@@ -90,8 +90,8 @@ TEST_CASE("5 a sphere squeezed between two walls", "[hard][quick]")
         exact_asymmetry = std::max(exact_asymmetry, forces_of(exact).difference / (stiffness * deepest));
         exactly_aside = std::max(exactly_aside, exact.position().norm() / d);
         // What the walls have put in, against what there is.
-        gain = std::max(gain, (world.report.contact_energy - work) / full);
-        work += world.report.wall_work;
+        gain = std::max(gain, (world.report.contacts.stored_energy - work) / full);
+        work += world.report.outcome.wall_work;
         most_work = std::max(most_work, work);
     }
     hard.below("highest force, error of k x 10 % d", std::abs(highest / (stiffness * deepest) - 1.0), 1e-3);

@@ -72,12 +72,12 @@ Told run(World& world, double duration)
     Told told;
     while (world.state.time < duration) {
         world.step();
-        told.fastest = std::max(told.fastest, world.report.fastest_speed);
+        told.fastest = std::max(told.fastest, world.report.bodies.fastest_speed);
         told.left_over = 0.0;
         for (const auto& contact : world.contact_forces())
             told.left_over = std::max(told.left_over, contact.normal_force);
         told.force = std::max(told.force, told.left_over);
-        for (const Incident& incident : world.report.incidents) {
+        for (const Incident& incident : world.report.bodies.incidents) {
             if (incident.kind != Incident::Kind::pressed) ++told.others;
             if (incident.kind != Incident::Kind::pressed || told.presses++ > 0) continue;
             told.first = world.state.time;

@@ -62,9 +62,9 @@ Settling run(Simulation& simulation, double duration)
     const Box box = bounds(simulation.model.walls[0].shape);
     result.finite_limit = std::sqrt(2 * standard_gravity * box.extent().z()) + 1.0;
     while (!has_reached(simulation, duration)) {
-        const auto report = step(simulation);
-        result.fastest = std::max(result.fastest, report.fastest_speed);
-        result.escaped += report.incidents.size();
+        const auto report = advance(simulation);
+        result.fastest = std::max(result.fastest, report.bodies.fastest_speed);
+        result.escaped += report.bodies.incidents.size();
         if (result.escaped > 0) break;
     }
     for (const Vec3& x : simulation.state.position) result.escaped += !box.contains(x);

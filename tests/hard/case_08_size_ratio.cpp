@@ -40,20 +40,20 @@ Rest settle(Simulation& simulation)
     Rest rest;
     double steps = 0.0, all_steps = 0.0, contacts = 0.0, candidates = 0.0;
     while (!has_reached(simulation, simulation.duration)) {
-        const auto report = step(simulation);
-        rest.outside += report.incidents.size();
-        rest.fastest = std::max(rest.fastest, report.fastest_speed / limit);
-        rest.deepest = std::max(rest.deepest, report.worst_overlap / model.min_diameter);
-        rest.searched += static_cast<double>(report.searched) / static_cast<double>(state.count());
+        const auto report = advance(simulation);
+        rest.outside += report.bodies.incidents.size();
+        rest.fastest = std::max(rest.fastest, report.bodies.fastest_speed / limit);
+        rest.deepest = std::max(rest.deepest, report.contacts.worst_overlap / model.min_diameter);
+        rest.searched += static_cast<double>(report.search.searched) / static_cast<double>(state.count());
         ++all_steps;
         if (state.time < 0.8 * simulation.duration) continue;
-        const double force = report.wall_impulse.z() / model.time_step / weight - 1.0;
+        const double force = report.outcome.wall_impulse.z() / model.time_step / weight - 1.0;
         rest.force_error += force;
         rest.force_spread += force * force;
-        rest.worst_overlap = std::max(rest.worst_overlap, report.worst_overlap / model.min_diameter);
-        rest.sweeps += report.sweeps;
-        contacts += static_cast<double>(report.contacts);
-        candidates += static_cast<double>(report.candidates);
+        rest.worst_overlap = std::max(rest.worst_overlap, report.contacts.worst_overlap / model.min_diameter);
+        rest.sweeps += report.solve.sweeps;
+        contacts += static_cast<double>(report.contacts.count);
+        candidates += static_cast<double>(report.search.candidates);
         ++steps;
     }
     rest.force_error = std::abs(rest.force_error / steps);

@@ -55,7 +55,7 @@ Gain gain_of_energy(World world, int steps)
     Gain gain;
     for (int k = 0; k < steps; ++k) {
         world.step();
-        const double complete = bare + world.report.contact_energy;
+        const double complete = bare + world.report.contacts.stored_energy;
         gain.rises += std::max(0.0, complete - last) / start;
         gain.above_start = std::max(gain.above_start, complete / start - 1.0);
         last = complete;

@@ -87,10 +87,10 @@ TEST_CASE("13 eight spheres with one centre, on a floor", "[hard][quick]")
     const int steps = static_cast<int>(3.0 / world.model.time_step);
     for (int k = 0; k < steps; ++k) {
         world.step();
-        fastest = std::max(fastest, world.report.fastest_speed);
+        fastest = std::max(fastest, world.report.bodies.fastest_speed);
     }
     hard.below("fastest speed [sqrt(2 g 8 d)]", fastest / std::sqrt(2 * standard_gravity * 8 * d), 1.0);
-    hard.below("worst overlap after 3 s [d]", world.report.worst_overlap / d, 1e-3);
+    hard.below("worst overlap after 3 s [d]", world.report.contacts.worst_overlap / d, 1e-3);
     double top = 0.0;
     for (const Vec3& x : world.state.position) top = std::max(top, x.z());
     hard.between("height of the uppermost [d]", top / d, 7.49, 7.5);

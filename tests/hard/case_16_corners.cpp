@@ -73,7 +73,7 @@ TEST_CASE("16 a sphere in a concave corner", "[hard][quick]")
                     error = std::max(error, std::abs(force.normal_force / weight * std::sqrt(double(faces)) - 1.0));
                 }
                 const std::string what = std::to_string(faces) + (friction > 0 ? " rough " : " smooth ") + name + ": ";
-                hard.between(what + "contacts", static_cast<double>(world.report.contacts), faces, faces);
+                hard.between(what + "contacts", static_cast<double>(world.report.contacts.count), faces, faces);
                 if (friction == 0.0) hard.below(what + "force on each, error", error, 1e-6);
                 hard.below(what + "friction beyond the cone [weight]", beyond_cone / weight, 1e-12);
                 hard.below(what + "sum of the forces [weight]", sum.norm() / weight, 1e-6);

@@ -4,7 +4,7 @@
 #include "tests/support/world.hpp"
 #include "tests/validation/run_scene.hpp"
 
-#include "core/contacts/loaded_contacts.hpp"
+#include "core/contacts/loads.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +23,12 @@ std::map<std::int64_t, int> loaded_contacts(const Simulation& simulation)
 {
     const auto& id = simulation.state.id;
     std::map<std::int64_t, int> count;
-    for_each_loaded_sphere_contact(simulation.contacts, [&](const Contact& contact, const ContactGeometry&) {
+    for_each_loaded_sphere_contact(simulation.network, [&](const Contact& contact, const ContactGeometry&) {
         ++count[id[contact.a]];
         ++count[id[contact.b]];
     });
     for_each_loaded_wall_contact(
-        simulation.contacts, [&](const Contact& contact, const ContactGeometry&) { ++count[id[contact.a]]; });
+        simulation.network, [&](const Contact& contact, const ContactGeometry&) { ++count[id[contact.a]]; });
     return count;
 }
 
@@ -45,14 +45,14 @@ Drift drift(Simulation& simulation)
 {
     const State& state = simulation.state;
     const double d = simulation.model.mean_diameter;
-    step(simulation);
+    advance(simulation);
     auto contacts = loaded_contacts(simulation);
     std::map<std::int64_t, Vec3> place;
     for (std::size_t i = 0; i < state.count(); ++i) place[state.id[i]] = state.position[i];
     Drift result;
     for (const auto& [id, x] : place) result.loose_count += contacts[id] < 3;
     for (int k = 1; k <= steps; ++k) {
-        step(simulation);
+        advance(simulation);
         if (k % 1000 != 0) continue;
         Vec3 moment = Vec3::Zero();
         double mass = 0.0, mass_of_all = 0.0;
@@ -128,7 +128,7 @@ TEST_CASE("19 no creep on an incline", "[hard]")
         hard.above(name + "height of its top [d]", world.position(4).z() / d, 1.0);
         world = before;
         for (int k = 0; k < steps / 10; ++k) {
-            world.contacts = {};
+            world.network = {};
             world.step();
         }
         hard.tell(name + "no warm start: creep of a sphere in 1e4 steps [d]", creep(0, 0));

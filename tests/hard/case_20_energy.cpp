@@ -41,10 +41,10 @@ EnergyRecord watch_energy(Simulation simulation, bool of_flight)
     record.start = without_contacts();
     double last = record.start, bare = record.start;
     while (!has_reached(simulation, simulation.duration)) {
-        const auto report = step(simulation);
-        REQUIRE(report.incidents.empty());
-        record.at_cap += !report.converged;
-        const double complete = bare + report.contact_energy; // of the state before this step
+        const auto report = advance(simulation);
+        REQUIRE(report.bodies.incidents.empty());
+        record.at_cap += !report.solve.converged;
+        const double complete = bare + report.contacts.stored_energy; // of the state before this step
         const double rise = std::max(0.0, complete - last);
         record.rises += rise;
         record.worst_rise = std::max(record.worst_rise, rise);

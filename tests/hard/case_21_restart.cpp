@@ -29,7 +29,7 @@ void put_back(Simulation& simulation, const std::string& bytes)
 void run(Simulation& simulation, int steps)
 {
     for (int k = 0; k < steps; ++k) {
-        const auto report = step(simulation);
+        const auto report = advance(simulation);
         for (auto& sensor : simulation.sensors) sensor->watch(snapshot(simulation, report));
         if (simulation.state.steps % 20 == 0)
             for (auto& sensor : simulation.sensors) sensor->sample(snapshot(simulation, report));
@@ -73,7 +73,7 @@ TEST_CASE("21 restart", "[hard]")
         // The comparison sees a warm start that is lost: without its impulses the run ends elsewhere.
         auto cold = open_scene(scene, overrides);
         put_back(cold, checkpoint);
-        cold.contacts = {};
+        cold.network = {};
         run(cold, steps);
         hard.holds(scene + " " + law + ": not without the warm start", stored(cold) != end);
     }

@@ -19,7 +19,7 @@ std::string run(int threads, const std::string& scene, int steps, const std::vec
     const int usual = omp_get_max_threads();
     omp_set_num_threads(threads);
     auto simulation = open_scene(scene, overrides);
-    for (int k = 0; k < steps; ++k) step(simulation);
+    for (int k = 0; k < steps; ++k) advance(simulation);
     int team = 0;
 #pragma omp parallel
 #pragma omp single

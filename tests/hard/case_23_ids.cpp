@@ -45,12 +45,12 @@ Bed settle(const std::vector<std::string>& overrides, std::uint64_t seed)
     auto s = open_scene("packing", overrides);
     if (seed) shuffle_spheres(s, seed);
     run_until(s, 0.7);
-    const auto report = step(s);
+    const auto report = advance(s);
     double height = 0.0;
     for (const Vec3& x : s.state.position) height += x.z();
     const auto count = static_cast<double>(s.state.count());
-    return {2 * height / count / s.model.mean_diameter, report.mean_overlap / s.model.mean_diameter,
-        static_cast<double>(report.overlapping) / count};
+    return {2 * height / count / s.model.mean_diameter, report.contacts.mean_overlap() / s.model.mean_diameter,
+        static_cast<double>(report.contacts.overlapping) / count};
 }
 
 } // namespace

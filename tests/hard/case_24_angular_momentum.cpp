@@ -65,7 +65,7 @@ TEST_CASE("24 angular momentum with large overlap", "[hard][quick]")
         world.step();
         worst = std::max(worst, (angular_momentum(world.state) - angular).norm() / scale);
         worst_linear = std::max(worst_linear, (linear_momentum(world.state) - linear).norm() / own);
-        deepest = std::max(deepest, world.report.worst_overlap / (2 * standard_radius));
+        deepest = std::max(deepest, world.report.contacts.worst_overlap / (2 * standard_radius));
     }
     hard.above("deepest overlap [d]", deepest, 0.3);
     hard.below("angular momentum over 1000 steps, error", worst, 1e-12);

@@ -96,7 +96,7 @@ Balance run(World world, double settle, double duration)
             gravity_work += world.state.mass(i) * h *
                             world.model.gravity.dot(0.5 * (before.motion[i].velocity + world.state.motion[i].velocity));
         const double dissipated = contact_dissipation(world, before);
-        const double work = world.report.wall_work;
+        const double work = world.report.outcome.wall_work;
         balance.wall_work += work;
         balance.dissipated += dissipated;
         balance.least = std::min(balance.least, dissipated);

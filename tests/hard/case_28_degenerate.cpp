@@ -14,7 +14,7 @@ namespace
 
 bool finite(const World& world)
 {
-    bool all = std::isfinite(world.report.kinetic_energy) && std::isfinite(world.report.residual);
+    bool all = std::isfinite(world.report.bodies.kinetic_energy) && std::isfinite(world.report.solve.residual);
     for (std::size_t i = 0; i < world.state.count(); ++i)
         all = all && world.state.position[i].allFinite() && world.state.motion[i].velocity.allFinite();
     return all;
@@ -63,14 +63,14 @@ TEST_CASE("28 degenerate scenes", "[hard][quick]")
         empty.add_plane(Vec3::Zero(), Vec3::UnitZ());
         empty.step(10);
         hard.holds(name + "no spheres: ten steps of nothing",
-            finite(empty) && empty.report.contacts == 0 && empty.report.converged);
+            finite(empty) && empty.report.contacts.count == 0 && empty.report.solve.converged);
 
         World fixed = make_world({.friction = 0.5}, production_settings(law), h);
         fixed.add_wall(grain_bed({Vec3::Zero(), Vec3(0.05, 0.05, 0)}, 0.01, 0.009));
         fixed.add_plane(Vec3(0, 0, 0.003), Vec3::UnitZ());
         fixed.step(10);
         hard.holds(name + "all fixed: grains that overlap each other and a plane",
-            finite(fixed) && fixed.report.contacts == 0);
+            finite(fixed) && fixed.report.contacts.count == 0);
 
         World alone = make_world({.friction = 0.5, .restitution = 0.5}, production_settings(law), h);
         alone.model.gravity.setZero();
@@ -79,13 +79,13 @@ TEST_CASE("28 degenerate scenes", "[hard][quick]")
         hard.below(name + "one sphere without gravity: error of its place [d]",
             (alone.position() - 1000 * h * Vec3(1, 2, 3)).norm() / 0.01, 1e-12);
         hard.holds(name + "one sphere: converged, and no more sweeps than the least",
-            alone.report.sweeps <= 3 && alone.report.converged);
+            alone.report.solve.sweeps <= 3 && alone.report.solve.converged);
 
         World dots = make_world({.friction = 0.5}, production_settings(law), h);
         for (int k = 0; k < 10; ++k) dots.add_sphere(Vec3(0.02 * k, 0, 0));
         dots.step(1000);
         hard.holds(name + "ten spheres that never touch fall alike",
-            finite(dots) && dots.report.contacts == 0 && (dots.velocity(0) - dots.velocity(9)).norm() == 0.0);
+            finite(dots) && dots.report.contacts.count == 0 && (dots.velocity(0) - dots.velocity(9)).norm() == 0.0);
     }
 
     const std::string& good = beads_in_a_box;

@@ -2,7 +2,7 @@
 #include "hard_case.hpp"
 #include "loaded_bed.hpp"
 
-#include "core/step/sub_steps.hpp"
+#include "core/step/time_step.hpp"
 #include "tests/validation/run_scene.hpp"
 
 #include <catch2/catch.hpp>
@@ -35,7 +35,7 @@ Simulation clogged(const std::string& law, bool scaled)
         double since = 0.4;
         while (s.state.time < give_up && s.state.count() > 300) {
             const auto count = s.state.count();
-            step(s);
+            advance(s);
             if (s.state.count() != count || s.state.time < 0.5 || below_hole(s.state) > 0) since = s.state.time;
             if (s.state.time - since > patience) return s;
         }
@@ -54,14 +54,14 @@ Arch watch(const Simulation& clogged, const SolverSettings& solver, int steps = 
 {
     Model model = clogged.model;
     State state = clogged.state;
-    ContactNetwork contacts = clogged.contacts;
+    ContactNetwork network = clogged.network;
     model.solver = solver;
     Arch arch;
     const double height = center_height(state);
     double sweeps = 0.0;
     for (int k = 1; k <= steps; ++k) {
         if (cold) contacts = {};
-        sweeps += make_step(state, contacts, model).sweeps;
+        sweeps += advance(state, network, model).solve.sweeps;
         arch.sweeps = sweeps / k;
         if (below_hole(state) > 0) {
             arch.lifetime = k;
@@ -111,7 +111,7 @@ TEST_CASE("29 static arch over a hole of three beads", "[hard]")
     tell(hard, "one plain sweep", watch(arch, plain_sweeps(arch, 1)));
 
     constexpr int fewer_steps = 20000;
-    arch.contacts = {};
+    arch.network = {};
     tell(hard, "2e4 steps, impulses forgotten once", watch(arch, production, fewer_steps));
     for (const int sweeps : {1, 3, 10, 30})
         tell(

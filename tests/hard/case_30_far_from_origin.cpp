@@ -86,8 +86,8 @@ void move_away(Simulation& simulation, const Vec3& way)
     for (auto& panel : std::get<Panels>(simulation.model.walls[0].shape).rectangles) panel.corner += way;
     simulation.model.world = simulation.model.world.shifted(way);
     simulation.model.corner += way;
-    for (Box& box : simulation.contacts.listed_box) box = box.shifted(way);
-    simulation.contacts.listed_around = simulation.contacts.listed_around.shifted(way);
+    for (Box& box : simulation.network.list.listed_box) box = box.shifted(way);
+    simulation.network.list.listed_around = simulation.network.list.listed_around.shifted(way);
 }
 
 /// Runs a world and its twin elsewhere; returns for each sphere the largest distance from its own twin, seen every
@@ -153,11 +153,11 @@ TEST_CASE("30 bed far from the origin", "[hard]")
             Simulation here = open(), there = open();
             run_until(here, 1.5);
             there.state = here.state;
-            there.contacts = here.contacts;
+            there.network = here.network;
             move_away(there, way);
             for (int k = 0; k < 1000; ++k) {
-                step(here);
-                step(there);
+                advance(here);
+                advance(there);
             }
             std::map<std::int64_t, Vec3> place;
             for (std::size_t i = 0; i < here.state.count(); ++i) place[here.state.id[i]] = here.state.position[i];
@@ -209,15 +209,15 @@ TEST_CASE("30 channel of 1e6 diameters", "[hard]")
     for (const auto law : laws) {
         auto s = open_scene("channel", {"solver.stabilisation=" + name_of(law)});
         run_until(s, 2.0);
-        const auto report = step(s);
+        const auto report = advance(s);
         double weight = 0.0;
         for (std::size_t i = 0; i < s.state.count(); ++i) weight += s.state.mass(i) * standard_gravity;
         const double load = -result(s, "channel", "force_z").value;
         hard.below(name_of(law) + ": load of the channel [weight] - 1", std::abs(load / weight - 1), 1e-3);
-        hard.below(name_of(law) + ": worst overlap [d]", report.worst_overlap / s.model.mean_diameter, 1e-3);
+        hard.below(name_of(law) + ": worst overlap [d]", report.contacts.worst_overlap / s.model.mean_diameter, 1e-3);
         hard.below(name_of(law) + ": listed pairs per sphere",
-            static_cast<double>(report.candidates) / static_cast<double>(s.state.count()), 12);
+            static_cast<double>(report.search.candidates) / static_cast<double>(s.state.count()), 12);
         hard.below(name_of(law) + ": tiles per sphere",
-            static_cast<double>(s.contacts.tiles.count()) / static_cast<double>(s.state.count()), 1);
+            static_cast<double>(s.network.list.tiles.count()) / static_cast<double>(s.state.count()), 1);
     }
 }

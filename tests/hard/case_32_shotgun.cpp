@@ -43,9 +43,9 @@ TEST_CASE("32 a shotgun in a closed box", "[hard]")
             const double first_energy = kinetic_energy(simulation.state);
             while (!has_reached(simulation, simulation.duration)) {
                 const auto report = talus::step(simulation);
-                whole = whole && report.incidents.empty();
+                whole = whole && report.bodies.incidents.empty();
                 deepest = std::max(deepest, deepest_outside(simulation.state) / simulation.model.mean_diameter);
-                most_energy = std::max(most_energy, report.kinetic_energy / first_energy);
+                most_energy = std::max(most_energy, report.bodies.kinetic_energy / first_energy);
                 most_sub_steps = std::max(most_sub_steps, report.sub_steps);
             }
             whole = whole && simulation.state.count() == 1000;

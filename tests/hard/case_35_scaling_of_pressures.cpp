@@ -35,10 +35,10 @@ Flow watch(const std::string& scene, std::vector<std::string> overrides, bool sc
     Flow flow;
     int steps = 0;
     for (; s.state.time < to; ++steps) {
-        const auto report = step(s);
-        flow.overlap += report.mean_overlap / s.model.mean_diameter;
-        flow.sweeps += report.sweeps;
-        flow.kinetic_energy += report.kinetic_energy;
+        const auto report = advance(s);
+        flow.overlap += report.contacts.mean_overlap() / s.model.mean_diameter;
+        flow.sweeps += report.solve.sweeps;
+        flow.kinetic_energy += report.bodies.kinetic_energy;
     }
     flow.overlap /= steps;
     flow.sweeps /= steps;
@@ -62,8 +62,8 @@ void compare(HardCase& hard, const std::string& name, const std::string& scene,
 double way_at_rest(const Simulation& bed, int steps)
 {
     State state = bed.state;
-    ContactNetwork contacts = bed.contacts;
-    for (int k = 0; k < steps; ++k) make_step(state, contacts, bed.model);
+    ContactNetwork network = bed.network;
+    for (int k = 0; k < steps; ++k) advance(state, network, bed.model);
     return std::abs(center_height(state) - center_height(bed.state)) / bed.model.mean_diameter;
 }
 

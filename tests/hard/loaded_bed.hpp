@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/step/sub_steps.hpp"
+#include "core/step/time_step.hpp"
 #include "scenarios/simulation.hpp"
 
 #include <cstddef>

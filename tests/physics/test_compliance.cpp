@@ -55,8 +55,8 @@ TEST_CASE("a sphere at rest on a soft floor overlaps by m g / k", "[statics][com
     world.step(20000);
     const double overlap = world.mass() * standard_gravity / stiffness_for(omega_h);
     CHECK(standard_radius - world.position().z() == Approx(overlap).margin(1e-9 * overlap + 1e-17));
-    CHECK(world.report.worst_overlap == Approx(overlap).margin(1e-9 * overlap + 1e-17)); // 1e-17: round-off of z
-    CHECK(world.report.contact_energy == within(1e-8, 0.5 * stiffness_for(omega_h) * overlap * overlap));
+    CHECK(world.report.contacts.worst_overlap == Approx(overlap).margin(1e-9 * overlap + 1e-17)); // 1e-17: round-off of z
+    CHECK(world.report.contacts.stored_energy == within(1e-8, 0.5 * stiffness_for(omega_h) * overlap * overlap));
 }
 
 TEST_CASE("no contact of the matched law is stiffer than its sweeps can carry", "[statics][compliance]")
@@ -89,7 +89,7 @@ TEST_CASE("a resolved impact on a soft contact rebounds as its step size damps i
         world.step();
         REQUIRE(world.state.steps < 1000);
         deepest = std::max(deepest, standard_radius - world.position().z());
-        pushing += world.report.wall_impulse.z() > 0;
+        pushing += world.report.outcome.wall_impulse.z() > 0;
     }
     CHECK(world.velocity().z() / speed == Approx(rebound).margin(1e-3));
     CHECK(deepest * omega_h / (speed * time_step) == Approx(depth).margin(1e-3));

@@ -67,7 +67,7 @@ template <class Energy> EnergyRecord record_energy(World& world, Energy energy)
     double without_contacts = record.start;
     for (int step = 0; step < steps; ++step) {
         world.step(); // reports what the contacts stored when it began: this completes the state before it
-        const double complete = without_contacts + world.report.contact_energy;
+        const double complete = without_contacts + world.report.contacts.stored_energy;
         const double rise = std::max(0.0, complete - record.end);
         record.worst_rise = std::max(record.worst_rise, rise);
         record.rises += rise;

@@ -79,7 +79,7 @@ TEST_CASE("a sphere wedged in stays when the load goes if μ > tan ψ, and is ex
     world.model.gravity = Vec3::Zero();
     const Vec3 position = world.position();
     world.step();
-    const double stored = world.report.contact_energy;
+    const double stored = world.report.contacts.stored_energy;
     world.step(999);
     CHECK(kinetic_energy(world.state) <= stored);
     if (share > 1) {

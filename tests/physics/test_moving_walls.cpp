@@ -87,7 +87,7 @@ TEST_CASE("bodies on a plate at constant velocity are those on a plate at rest, 
     for (int step = 0; step < steps; ++step) {
         still.step();
         moving.step();
-        contacts += still.report.contacts;
+        contacts += still.report.contacts.count;
     }
     REQUIRE(contacts > (steps == 1000 ? 1000 : 20));
     const Vec3 moved = still.state.time * velocity;
@@ -197,15 +197,15 @@ TEST_CASE("rolling resistance at a turning wall is against the spin relative to 
     tipped.add_wall(Disk{Vec3::Zero(), Vec3::UnitZ(), 0.1}, {Turning{{}, Vec3::Zero(), Vec3::UnitY(), rate}});
     tipped.add_sphere(standard_radius * Vec3::UnitZ(), Vec3(rate * standard_radius, 0, 0), rate * Vec3::UnitY());
     tipped.step(1); // as one body with the plate: neither slip nor relative spin, and no rolling impulse
-    const auto& walls = tipped.contacts.wall_contacts;
-    REQUIRE(tipped.report.contacts == 1);
-    std::size_t slot = tipped.contacts.wall_slots_of_tile[0];
+    const auto& walls = tipped.network.contacts.walls;
+    REQUIRE(tipped.report.contacts.count == 1);
+    std::size_t slot = tipped.network.list.wall_slots_of_tile[0];
     const double size = walls.rolling[slot].reach * walls.contact[slot].impulse.dot(walls.contact[slot].normal);
     CHECK(size > 0.0);
     CHECK(walls.rolling[slot].impulse.norm() < 1e-2 * size);
     tipped.state.motion[0].rim_velocity.setZero(); // at rest it is dragged with the whole resistance
     tipped.step(1);
-    slot = tipped.contacts.wall_slots_of_tile[0];
+    slot = tipped.network.list.wall_slots_of_tile[0];
     const double whole = walls.rolling[slot].reach * walls.contact[slot].impulse.dot(walls.contact[slot].normal);
     CHECK(walls.rolling[slot].impulse.y() == within(1e-3, whole));
 }
@@ -243,10 +243,10 @@ TEST_CASE("torque times rate and force times velocity are what walls put in, and
         for (std::size_t i = 0; i < world.state.count(); ++i)
             gravity_work += world.state.mass(i) * time_step *
                             world.model.gravity.dot(0.5 * (old[i] + world.state.motion[i].velocity));
-        const double loss = gravity_work + world.report.wall_work - (kinetic_energy(world.state) - before);
+        const double loss = gravity_work + world.report.outcome.wall_work - (kinetic_energy(world.state) - before);
         least = std::min(least, loss);
         dissipated += loss;
-        work += world.report.wall_work;
+        work += world.report.outcome.wall_work;
 
         double power = 0.0;
         for (std::size_t w = 0; w < world.model.walls.size(); ++w) {
@@ -256,7 +256,7 @@ TEST_CASE("torque times rate and force times velocity are what walls put in, and
                      world.report.wall_loads[w].torque.dot(twist.spin);
         }
         largest_work = std::max(largest_work, std::abs(power));
-        REQUIRE(world.report.wall_work == Approx(power).margin(1e-9 * largest_work));
+        REQUIRE(world.report.outcome.wall_work == Approx(power).margin(1e-9 * largest_work));
     }
     CHECK(work > 0.0);
     CHECK(dissipated > 0.0);

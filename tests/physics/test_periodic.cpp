@@ -60,7 +60,7 @@ TEST_CASE("bodies that collide across a periodic border do as those in the middl
     for (int step = 0; step < 500; ++step) {
         middle.step();
         border.step();
-        contacts += border.report.contacts;
+        contacts += border.report.contacts.count;
     }
     REQUIRE(contacts > 40);
     CHECK(kinetic_energy(border.state) < 0.9 * energy);
@@ -99,9 +99,9 @@ TEST_CASE("a ring of spheres pressed together round a periodic axis pushes itsel
     World world = without_gravity({.friction = 0.5}, solver, along_x());
     for (int k = 0; k < 6; ++k) world.add_sphere(Vec3(0.002 + 0.01 * k, 0, 0), Vec3::Zero(), Vec3::Zero(), 0.00505);
     world.step(50);
-    CHECK(world.report.contacts == 6);
+    CHECK(world.report.contacts.count == 6);
     const bool rigid = solver.stabilisation == Stabilisation::projected;
-    CHECK(world.report.worst_overlap == Approx(1e-4).margin(rigid ? 2 * passed_on : 1e-10));
+    CHECK(world.report.contacts.worst_overlap == Approx(1e-4).margin(rigid ? 2 * passed_on : 1e-10));
     for (int k = 0; k < 6; ++k) {
         CHECK(world.velocity(k).norm() < 1e-9);
         CHECK((world.position(k) - Vec3(0.002 + 0.01 * k, 0, 0)).norm() < (rigid ? passed_on : 1e-9));
@@ -156,7 +156,7 @@ TEST_CASE("walls that span a periodic cell have no seam", "[periodicity][walls]"
         world.step();
         worst_height = std::max(worst_height, std::abs(world.position().z() - height));
         worst_speed = std::max(worst_speed, (world.velocity() - velocity).norm());
-        REQUIRE(world.report.contacts == 1);
+        REQUIRE(world.report.contacts.count == 1);
     }
     CHECK(worst_height < 1e-9);
     CHECK(worst_speed < 1e-9);
@@ -194,10 +194,10 @@ TEST_CASE("gravity along a periodic axis does work and has no potential", "[peri
     double work = 0.0;
     for (int k = 0; k < 3000; ++k) {
         world.step();
-        work += world.report.gravity_work;
+        work += world.report.bodies.gravity_work;
     }
     CHECK(world.velocity().x() == within(1e-9, 3.0 * 3000 * time_step));
-    CHECK(world.report.potential_energy == within(1e-9, world.mass() * 9.0 * standard_radius));
+    CHECK(world.report.bodies.potential_energy == within(1e-9, world.mass() * 9.0 * standard_radius));
     CHECK(work == within(1e-3, kinetic_energy(world.state))); // of the first order in h
 }
 

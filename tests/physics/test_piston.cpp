@@ -39,7 +39,7 @@ Drift drift(const World& world, std::size_t k = 0)
 
 Vec3 floor_force(const World& world)
 {
-    return -world.report.wall_impulse / h;
+    return -world.report.outcome.wall_impulse / h;
 }
 
 } // namespace
@@ -215,11 +215,11 @@ TEST_CASE("what a plate in a jostling heap gains in momentum is what gravity, lo
         const Vec3 before = world.momentum();
         world.step();
         const auto& by_guide = world.state.pistons[piston].guide_impulse;
-        const Vec3 given = h * (weights * world.model.gravity - load * guide) + world.report.wall_impulse +
+        const Vec3 given = h * (weights * world.model.gravity - load * guide) + world.report.outcome.wall_impulse +
                            by_guide[0] * across + by_guide[1] * guide.cross(across);
         REQUIRE((world.momentum() - before - given).norm() < 1e-13);
     }
-    CHECK(world.contacts.piston_contacts.count[0] > 3);
+    CHECK(world.network.contacts.pistons.count[0] > 3);
     CHECK(drift(world).across < no_drift);
     CHECK(drift(world).turn < no_drift);
 }
@@ -252,10 +252,10 @@ TEST_CASE("what a load does on a plate goes into its energy, or is lost", "[phys
     double work = 0.0;
     for (int k = 0; k < 300; ++k) {
         world.step();
-        work += world.report.load_work;
+        work += world.report.bodies.load_work;
     }
     // Symplectic steps: Σ F v h = ½ M v² + Σ ½ (F h)²/M.
-    const double kinetic = world.report.kinetic_energy;
+    const double kinetic = world.report.bodies.kinetic_energy;
     CHECK(kinetic == within(1e-12, kinetic_energy(world.model.pistons[0], world.state.pistons[0])));
     CHECK(work > kinetic);
     CHECK(work == within(1e-2, kinetic));

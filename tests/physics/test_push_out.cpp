@@ -61,7 +61,7 @@ TEST_CASE("the rigid law undoes an overlap without any speed", "[push_out]")
     world.step(5);
     CHECK(2 * standard_radius - (world.position(0) - world.position(1)).norm() ==
           within(1e-12, std::pow(5.0 / 9.0, 5) * overlap));
-    CHECK(world.report.fastest_speed == 0.0);
+    CHECK(world.report.bodies.fastest_speed == 0.0);
 }
 
 } // namespace talus::test

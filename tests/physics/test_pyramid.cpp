@@ -23,7 +23,7 @@ TEST_CASE("a pyramid carries the forces of its statics", "[statics][friction]")
     const int n = GENERATE(2, 3);
     World world = pyramid(n, 0.5, 0.5, rigid_settings());
     world.step();
-    REQUIRE(world.report.converged);
+    REQUIRE(world.report.solve.converged);
     const double weight = world.mass() * standard_gravity;
     const double tangent = weight / n * critical_friction_above(n);
     const auto forces = world.contact_forces();
@@ -45,7 +45,7 @@ TEST_CASE("a pyramid stands just above its critical friction and moves just belo
         const double floor = at_floor ? share * critical_friction_at_floor(n) : ample_friction;
         World world = pyramid(n, above, floor, rigid_settings());
         world.step();
-        CHECK(world.report.converged);
+        CHECK(world.report.solve.converged);
         return fastest_sphere(world) / (standard_gravity * automatic_step());
     };
     CHECK(first_speed(1.001) < 1e-9);
@@ -60,8 +60,8 @@ TEST_CASE("a pyramid at rest needs no more than the least number of sweeps", "[s
     const auto solver = GENERATE(rigid_settings(1e-10), matched_settings(1e-10));
     World world = pyramid(3, 0.5, 0.5, solver);
     world.step(1000);
-    CHECK(world.report.converged);
-    CHECK(world.report.sweeps == solver.min_sweeps);
+    CHECK(world.report.solve.converged);
+    CHECK(world.report.solve.sweeps == solver.min_sweeps);
 }
 
 TEST_CASE("with production settings a pyramid's critical friction is right to 1 %", "[statics][friction][production]")

@@ -41,7 +41,7 @@ TEST_CASE("contact k of a column of n spheres carries the weight of n − k + 1"
     // sweep times 1/(1 − ρ) = 45, ρ = cos²(π/21) for 10 spheres: 1e-11 of the residual's 1e-13.
     World world = column(rough(), rigid_settings());
     world.step();
-    REQUIRE(world.report.converged);
+    REQUIRE(world.report.solve.converged);
     const double weight = world.mass() * standard_gravity;
     const auto forces = world.contact_forces();
     REQUIRE(forces.size() == height);
@@ -49,7 +49,7 @@ TEST_CASE("contact k of a column of n spheres carries the weight of n − k + 1"
         CHECK(contact.normal_force == within(1e-10, carried_spheres(contact) * weight));
         CHECK(contact.tangent_force.norm() < 1e-10 * weight);
     }
-    CHECK(world.report.wall_impulse.z() == within(1e-10, height * weight * time_step));
+    CHECK(world.report.outcome.wall_impulse.z() == within(1e-10, height * weight * time_step));
 }
 
 TEST_CASE("a column of soft spheres overlaps by the load over the stiffness in every contact", "[statics][compliance]")
@@ -94,7 +94,7 @@ TEST_CASE("a heavy sphere on a light one loads the floor with the weight of both
     world.add_sphere(
         3 * standard_radius * Vec3::UnitZ(), Vec3::Zero(), Vec3::Zero(), standard_radius, ratio * standard_density);
     world.step();
-    REQUIRE(world.report.converged);
+    REQUIRE(world.report.solve.converged);
     const double weight = world.mass(0) * standard_gravity;
     const double solver_limited = 1e-12 * ratio; // the last change of a sweep times 1/(1 − ρ) = 1 + M/m
     for (const auto& contact : world.contact_forces())

@@ -78,7 +78,7 @@ TEST_CASE("a run that pours and empties keeps its ledger", "[simulation]")
     double inserted_mass = 0.0;
     std::int64_t weighed = 0;
     while (simulation.state.time < 0.4) { // twice the longest fall, of 0.25 m
-        step(simulation);
+        advance(simulation);
         for (std::size_t i = 0; i < simulation.state.count(); ++i)
             if (simulation.state.id[i] >= weighed) inserted_mass += simulation.state.mass(i);
         weighed = simulation.state.next_id;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 
 namespace talus::test
 {
@@ -10,14 +10,13 @@ namespace talus::test
 /// them: tile by tile, those between spheres first; then those with pistons.
 template <class Visit> void for_each_contact(const ContactNetwork& network, Visit&& visit)
 {
-    const auto visit_some = [&](const ContactArrays& arrays, std::size_t first, std::size_t tile, bool with_wall) {
-        for (std::size_t k = first; k < first + arrays.count[tile]; ++k) visit(arrays, k, with_wall);
-    };
-    for (std::size_t tile = 0; tile < network.tiles.count(); ++tile) {
-        visit_some(network.sphere_contacts, network.pairs_of_tile[tile], tile, false);
-        visit_some(network.wall_contacts, network.wall_slots_of_tile[tile], tile, true);
+    const auto& [spheres, walls, pistons, arms] = network.contacts;
+    for (std::size_t tile = 0; tile < spheres.tiles(); ++tile) {
+        for (const std::size_t k : spheres.of_tile(tile)) visit(spheres, k, false);
+        for (const std::size_t k : walls.of_tile(tile)) visit(walls, k, true);
     }
-    if (!network.piston_contacts.count.empty()) visit_some(network.piston_contacts, 0, 0, true);
+    for (std::size_t tile = 0; tile < pistons.tiles(); ++tile)
+        for (const std::size_t k : pistons.of_tile(tile)) visit(pistons, k, true);
 }
 
 } // namespace talus::test

@@ -2,7 +2,7 @@
 #include "tests/support/world.hpp"
 
 #include "core/candidates/candidate_search.hpp"
-#include "core/step/sub_steps.hpp"
+#include "core/step/time_step.hpp"
 
 #include "tests/support/contacts.hpp"
 
@@ -87,15 +87,15 @@ std::vector<PlacedWall> World::placed_walls() const
 
 std::size_t World::update_candidates()
 {
-    return talus::update_candidates(contacts, state, model, placed_walls());
+    return talus::update_candidates(network.list, network.carried, state, model, model.time_step, placed_walls());
 }
 
 void World::step(int count)
 {
     for (int i = 0; i < count; ++i) {
-        report = make_step(state, contacts, model);
+        report = advance(state, network, model);
         // Largest errors are kept with std::max, which passes over what is not a number.
-        for (const Incident& incident : report.incidents)
+        for (const Incident& incident : report.bodies.incidents)
             if (incident.kind == Incident::Kind::not_a_number) throw std::runtime_error("not a number");
     }
 }
@@ -110,9 +110,9 @@ std::size_t World::index_of(std::int64_t id) const
 std::vector<ContactForce> World::contact_forces() const
 {
     std::vector<ContactForce> forces;
-    for_each_contact(contacts, [&](const ContactArrays& arrays, std::size_t k, bool with_wall) {
+    for_each_contact(network, [&](const ContactArrays& arrays, std::size_t k, bool with_wall) {
         const Contact& contact = arrays.contact[k];
-        ContactForce force = contact_force(contact, arrays.terms[k], arrays.geometry[k], contacts.impulse_step);
+        ContactForce force = contact_force(contact, arrays.terms[k], arrays.geometry[k], network.carried.impulse_step);
         force.with_wall = with_wall;
         force.a = state.id[static_cast<std::size_t>(contact.a)];
         force.b = with_wall ? contact.b : state.id[static_cast<std::size_t>(contact.b)];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/contact_network.hpp"
+#include "core/contacts/contact_network.hpp"
 #include "core/step/diagnostics.hpp"
 #include "core/step/time_step.hpp"
 #include "core/world/model.hpp"
@@ -42,7 +42,7 @@ struct ContactForce {
 struct World {
     Model model;
     State state;
-    ContactNetwork contacts;
+    ContactNetwork network;
     StepReport report;
 
     /// @return the id of the new sphere

@@ -23,12 +23,12 @@ Quietness watch(Simulation& simulation, double window)
     std::int64_t steps = 0;
     const double end = state.time + window;
     while (state.time < end) {
-        const auto report = step(simulation);
-        const double support = -report.wall_impulse.dot(model.gravity) / g / model.time_step;
+        const auto report = advance(simulation);
+        const double support = -report.outcome.wall_impulse.dot(model.gravity) / g / model.time_step;
         squares += std::pow(support / (mass * g) - 1.0, 2);
-        quiet.overlap += report.mean_overlap / d;
-        quiet.worst_overlap = std::max(quiet.worst_overlap, report.worst_overlap / d);
-        quiet.sweeps += report.sweeps;
+        quiet.overlap += report.contacts.mean_overlap() / d;
+        quiet.worst_overlap = std::max(quiet.worst_overlap, report.contacts.worst_overlap / d);
+        quiet.sweeps += report.solve.sweeps;
         quiet.restless += energy_without_rattlers(state);
         ++steps;
     }

@@ -28,9 +28,9 @@ double run_until(Simulation& simulation, double time)
     constexpr double sample_interval = 0.005;
     double next_sample = simulation.state.time, fastest = 0.0;
     while (simulation.state.time < time) {
-        const auto report = step(simulation);
-        REQUIRE(report.incidents.empty());
-        fastest = std::max(fastest, report.fastest_speed);
+        const auto report = advance(simulation);
+        REQUIRE(report.bodies.incidents.empty());
+        fastest = std::max(fastest, report.bodies.fastest_speed);
         for (auto& sensor : simulation.sensors) sensor->watch(snapshot(simulation, report));
         if (simulation.state.time < next_sample) continue;
         for (auto& sensor : simulation.sensors) sensor->sample(snapshot(simulation, report));

@@ -61,9 +61,9 @@ TEST_CASE("in a slowly turning drum the surface lies at 22 to 27 degrees, and fr
     const double energy_before = kinetic_energy(s.state) + potential_energy(s.state, s.model.gravity);
     double work = 0.0;
     while (s.state.time < end) {
-        const auto report = step(s);
-        REQUIRE(report.incidents.empty());
-        work += report.wall_work;
+        const auto report = advance(s);
+        REQUIRE(report.bodies.incidents.empty());
+        work += report.outcome.wall_work;
         for (auto& sensor : s.sensors) sensor->watch(snapshot(s, report));
         if (s.state.steps % 30 == 0)
             for (auto& sensor : s.sensors) sensor->sample(snapshot(s, report));

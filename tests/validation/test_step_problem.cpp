@@ -23,16 +23,16 @@ namespace
 State swept_by_kernel(const Simulation& simulation, int sweeps)
 {
     State state = simulation.state;
-    auto contacts = simulation.contacts;
+    auto network = simulation.network;
     const Model& model = simulation.model;
-    PistonGroup pistons(contacts, state, model);
+    PistonGroup pistons(network, state, model);
     for (Motion& m : state.motion) m.velocity += model.time_step * model.gravity;
     SolverSettings solver = model.solver;
     solver.tolerance = 0.0;
     solver.min_sweeps = solver.max_sweeps = sweeps;
-    const double warm_size = apply_warm_start(contacts, pistons, state.motion, model.physics);
-    solve_contacts(contacts, pistons, state.motion, model.physics, solver, warm_size);
-    pistons.store(contacts, state);
+    const double warm_size = apply_warm_start(network, pistons, state.motion, model.physics);
+    solve_contacts(network, pistons, state.motion, model.physics, solver, warm_size);
+    pistons.store(network, state);
     return state;
 }
 
@@ -83,13 +83,13 @@ struct Census {
     int impacts = 0, rolling = 0, moving = 0, with_pistons = 0;
 };
 
-Census census(const ContactNetwork& contacts)
+Census census(const ContactNetwork& network)
 {
     Census count;
-    for_each_contact(contacts, [&](const ContactArrays& arrays, std::size_t k, bool) {
+    for_each_contact(network, [&](const ContactArrays& arrays, std::size_t k, bool) {
         count.impacts += arrays.geometry[k].kind == ContactKind::impact;
         count.rolling += !arrays.rolling.empty() && arrays.rolling[k].reach > 0.0;
-        count.with_pistons += &arrays == &contacts.piston_contacts;
+        count.with_pistons += &arrays == &network.contacts.pistons;
         count.moving += !arrays.wall.empty() && !arrays.wall[k].velocity.isZero(0.0);
     });
     return count;
@@ -101,15 +101,15 @@ Census compare(const std::string& scene, double time)
     CAPTURE(scene, time);
     auto simulation = open_scene(scene);
     run_until(simulation, time);
-    begin_step(simulation);
-    const auto step = make_step_problem(simulation.state, simulation.contacts, simulation.model);
+    prepare_step(simulation);
+    const auto step = make_step_problem(simulation.state, simulation.network, simulation.model);
     REQUIRE(step.problem.constraints().size() > 500);
     for (const int sweeps : {1, 2, 20})
         CHECK(
             worst_difference(swept_by_kernel(simulation, sweeps), step.problem, swept_by_blocks(step, sweeps)) < 1e-10);
     if (simulation.model.pistons.empty()) // whose guides are blocks, and single rows in a file
         CHECK(worst_difference(swept_by_kernel(simulation, 20), step.problem, swept_from_file(step, 20)) < 1e-10);
-    return census(simulation.contacts);
+    return census(simulation.network);
 }
 
 } // namespace

@@ -44,7 +44,7 @@ using Pairs = std::set<std::pair<std::int32_t, std::int32_t>>;
 Pairs listed_pairs(const ContactNetwork& network)
 {
     Pairs pairs;
-    for (const auto& pair : network.pairs) pairs.insert({pair.a, pair.b});
+    for (const auto& pair : network.list.pairs) pairs.insert({pair.a, pair.b});
     return pairs;
 }
 
@@ -53,8 +53,8 @@ std::size_t check_pairs(const World& world)
 {
     const auto& state = world.state;
     const double reach = open_contact_reach * world.model.min_diameter;
-    const auto listed = listed_pairs(world.contacts);
-    REQUIRE(listed.size() == world.contacts.pairs.size()); // each once
+    const auto listed = listed_pairs(world.network);
+    REQUIRE(listed.size() == world.network.list.pairs.size()); // each once
     std::size_t within = 0;
     for (std::size_t i = 0; i < state.count(); ++i)
         for (std::size_t j = i + 1; j < state.count(); ++j) {
@@ -73,9 +73,9 @@ std::size_t check_walls(const World& world)
     const auto& state = world.state;
     const double reach = open_contact_reach * world.model.min_diameter;
     std::set<std::tuple<std::int32_t, std::int32_t, std::int32_t>> listed;
-    for (const auto& pair : world.contacts.wall_pairs)
+    for (const auto& pair : world.network.list.wall_pairs)
         for (std::uint32_t k = 0; k < pair.patches; ++k)
-            listed.insert({pair.sphere, pair.wall, world.contacts.patches[pair.first + k]});
+            listed.insert({pair.sphere, pair.wall, world.network.list.patches[pair.first + k]});
     std::size_t within = 0;
     for (std::size_t i = 0; i < state.count(); ++i)
         for (std::size_t w = 0; w < world.model.walls.size(); ++w) {
@@ -107,7 +107,7 @@ void run_checked(World& world, int steps, Seen& seen)
         seen.pairs += check_pairs(world);
         seen.patches += check_walls(world);
         world.step();
-        REQUIRE(world.report.incidents.empty());
+        REQUIRE(world.report.bodies.incidents.empty());
     }
 }
 
@@ -188,7 +188,7 @@ TEST_CASE("spheres that come and go leave the list complete", "[candidate_search
         for (std::int32_t i = old_count - 1; i >= 0; --i)
             if (old_count < 30 || (i + round) % 9 != 0) new_index[static_cast<std::size_t>(i)] = kept++;
         renumber_spheres(world.state, new_index, static_cast<std::size_t>(kept));
-        renumber_candidates(world.contacts, world.state, world.model, new_index);
+        renumber_candidates(world.network.list, world.network.carried, world.state, world.model, new_index);
         world.add_sphere(Vec3(0.03, 0.03, 0.03), Vec3(1, 0, 0), Vec3::Zero(), 0.002);
     }
     CHECK(seen.pairs > 50);
@@ -202,19 +202,19 @@ TEST_CASE("impulses stay with their pair when the list is rebuilt and renumbered
     for (int i = 0; i < 20; ++i) world.add_sphere(Vec3(0.0099 * i, 0, 0));
     world.update_candidates();
     const auto slot_of = [&](std::int32_t a, std::int32_t b) {
-        const auto& pairs = world.contacts.pairs;
+        const auto& pairs = world.network.list.pairs;
         const auto found = std::find(pairs.begin(), pairs.end(), IndexPair{std::min(a, b), std::max(a, b)});
         REQUIRE(found != pairs.end());
         return static_cast<std::size_t>(found - pairs.begin());
     };
     for (std::int32_t i = 0; i < 19; ++i) {
-        world.contacts.pair_carried.impulse[slot_of(i, i + 1)] = Vec3(i + 1, 0, 0);
-        world.contacts.pair_carried.touched[slot_of(i, i + 1)] = 1;
+        world.network.carried.pairs.impulse[slot_of(i, i + 1)] = Vec3(i + 1, 0, 0);
+        world.network.carried.pairs.touch[slot_of(i, i + 1)].note_touch(true);
     }
     std::vector<std::int32_t> new_index(20);
     for (std::int32_t i = 0; i < 20; ++i) new_index[static_cast<std::size_t>(i)] = (7 * i) % 20;
     renumber_spheres(world.state, new_index, 20);
-    renumber_candidates(world.contacts, world.state, world.model, new_index);
+    renumber_candidates(world.network.list, world.network.carried, world.state, world.model, new_index);
     for (auto& x : world.state.position) x.y() += 0.01; // all leave their boxes and are listed anew
     CHECK(world.update_candidates() == 20);
 
@@ -222,8 +222,8 @@ TEST_CASE("impulses stay with their pair when the list is rebuilt and renumbered
         const auto a = (7 * i) % 20, b = (7 * (i + 1)) % 20;
         const auto slot = slot_of(a, b);
         // On the bead of lower storage index: turned round where that is now the other one.
-        CHECK(world.contacts.pair_carried.impulse[slot] == (a < b ? 1.0 : -1.0) * Vec3(i + 1, 0, 0));
-        CHECK(world.contacts.pair_carried.touched[slot] == 1);
+        CHECK(world.network.carried.pairs.impulse[slot] == (a < b ? 1.0 : -1.0) * Vec3(i + 1, 0, 0));
+        CHECK(world.network.carried.pairs.touch[slot].touched());
     }
 }
 
@@ -244,5 +244,5 @@ TEST_CASE("no spheres have no candidates", "[candidate_search][degenerate]")
     world.add_plane(Vec3::Zero(), Vec3::UnitZ());
     CHECK(world.update_candidates() == 0);
     world.step();
-    CHECK(world.report.candidates == 0);
+    CHECK(world.report.search.candidates == 0);
 }

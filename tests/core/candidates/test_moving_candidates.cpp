@@ -66,8 +66,8 @@ std::size_t check_pairs(const World& world)
 {
     const auto& state = world.state;
     std::set<std::pair<std::int32_t, std::int32_t>> listed;
-    for (const auto& pair : world.contacts.pairs) listed.insert({pair.a, pair.b});
-    REQUIRE(listed.size() == world.contacts.pairs.size()); // each once
+    for (const auto& pair : world.network.list.pairs) listed.insert({pair.a, pair.b});
+    REQUIRE(listed.size() == world.network.list.pairs.size()); // each once
     const auto shifts = world.model.periodicity.neighbor_shifts();
     std::size_t within = 0;
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(state.count()); ++i)
@@ -91,14 +91,14 @@ std::size_t check_walls(const World& world)
     const auto& state = world.state;
     const auto walls = world.placed_walls();
     std::set<std::tuple<std::int32_t, std::int32_t, std::int32_t>> listed;
-    for (const auto& pair : world.contacts.wall_pairs)
+    for (const auto& pair : world.network.list.wall_pairs)
         for (std::uint32_t k = 0; k < pair.patches; ++k)
-            listed.insert({pair.sphere, pair.wall, world.contacts.patches[pair.first + k]});
-    REQUIRE(listed.size() == world.contacts.patches.size());
+            listed.insert({pair.sphere, pair.wall, world.network.list.patches[pair.first + k]});
+    REQUIRE(listed.size() == world.network.list.patches.size());
     std::size_t within = 0;
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(state.count()); ++i) {
         const Vec3& own = state.position[i];
-        const Vec3 x = own + world.model.periodicity.shift_towards(own, world.contacts.listed_box[i].center());
+        const Vec3 x = own + world.model.periodicity.shift_towards(own, world.network.list.listed_box[i].center());
         for (std::int32_t w = 0; w < static_cast<std::int32_t>(walls.size()); ++w)
             for (std::size_t patch = 0; patch < walls[w].patch_count(); ++patch) {
                 const auto at = walls[w].nearest_point(patch, x);
@@ -123,7 +123,7 @@ void run_checked(World& world, int steps)
         patches += check_walls(world);
         world.step();
         // Walls that fast may press beads for which rigid contacts have no solution; that is told, and no harm here.
-        for (const Incident& incident : world.report.incidents) REQUIRE(incident.kind == Incident::Kind::pressed);
+        for (const Incident& incident : world.report.bodies.incidents) REQUIRE(incident.kind == Incident::Kind::pressed);
     }
     CHECK(pairs > 50);
     CHECK(patches > 100);

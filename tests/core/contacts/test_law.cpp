@@ -37,20 +37,20 @@ TEST_CASE("each kind of contact gets its law", "[stabilisation]")
     const ContactLaw law{0.5, 0.4, 0.0, infinity};
     const double w = 2.0;
 
-    const auto impact = normal_law({ContactKind::impact, -1e-5, -1.0, w, 0.0}, law, solver, h);
+    const auto impact = normal_law({ContactKind::impact, -1e-5, -1.0, w, 0.0}, law, solver, {h});
     CHECK(impact.target == Approx(0.4));
     CHECK(impact.compliance == 0.0);
 
-    const auto open = normal_law({ContactKind::open, 1e-4, nowhere, w, nowhere}, law, solver, h);
+    const auto open = normal_law({ContactKind::open, 1e-4, nowhere, w, nowhere}, law, solver, {h});
     CHECK(open.target == Approx(-0.1)); // may close the gap in one step: u_n ≥ −g/h, without Υ
     CHECK(open.compliance == 0.0);
 
-    const auto resting = normal_law({ContactKind::resting, -1e-5, -0.09, w, 0.0}, law, solver, h);
+    const auto resting = normal_law({ContactKind::resting, -1e-5, -0.09, w, 0.0}, law, solver, {h});
     CHECK(resting.compliance == Approx(0.2 / 2 * w));                   // σ W, σ = 0.2 / N_min
     CHECK(resting.target == Approx(4.0 / 9.0 * 1e-5 / h - 0.09 / 9.0)); // −(4/h) Υ g + Υ u_n
 
     solver.stabilisation = Stabilisation::projected;
-    const auto rigid = normal_law({ContactKind::resting, -1e-5, -0.09, w, nowhere}, law, solver, h);
+    const auto rigid = normal_law({ContactKind::resting, -1e-5, -0.09, w, nowhere}, law, solver, {h});
     CHECK(rigid.target == 0.0);
     CHECK(rigid.compliance == 0.0);
 }
@@ -67,9 +67,9 @@ TEST_CASE("only the excess of the push-out over what the carried impulse needs i
     SolverSettings solver;
     solver.push_out_speed = 0.05;
     const double w = 2.0, carried = 1.0; // held: Σ λ = 0.2 · 1
-    const auto deep = normal_law({ContactKind::resting, -1e-2, 0.0, w, carried}, {}, solver, h);
+    const auto deep = normal_law({ContactKind::resting, -1e-2, 0.0, w, carried}, {}, solver, {h});
     CHECK(deep.target == Approx(0.2 + 0.05));
     // In equilibrium the overlap's feedback is just what the impulse needs, however large that is.
     const double gap = -0.2 * h / (4.0 / 9.0);
-    CHECK(normal_law({ContactKind::resting, gap, 0.0, w, carried}, {}, solver, h).target == Approx(0.2));
+    CHECK(normal_law({ContactKind::resting, gap, 0.0, w, carried}, {}, solver, {h}).target == Approx(0.2));
 }

@@ -155,35 +155,37 @@ TEST_CASE("a sphere on the rim of an open box has one contact", "[wall_contacts]
 
 TEST_CASE("new contacts of a wall take over what the old ones with the nearest normals carried", "[wall_contacts]")
 {
-    ContactNetwork network;
-    network.wall_carried = CarriedImpulses(3, false);
-    network.wall_carried_normal = {Vec3::UnitX(), Vec3::UnitZ(), Vec3::UnitY()};
-    network.wall_carried.impulse = {Vec3(1, 0, 0), Vec3(0, 0, 3), Vec3::Zero()};
-    network.wall_carried.touched = {1, 1, 0};
+    Carried carried;
+    carried.walls = CarriedImpulses(3, false);
+    carried.wall_normal = {Vec3::UnitX(), Vec3::UnitZ(), Vec3::UnitY()};
+    carried.walls.impulse = {Vec3(1, 0, 0), Vec3(0, 0, 3), Vec3::Zero()};
+    for (const std::size_t k : {0, 1}) carried.walls.touch[k].note_touch(true);
     WallPair pair{.sphere = 0, .wall = 0, .first = 0, .patches = 3, .carried = 2};
     const auto towards = [](const Vec3& n) { return WallPoint{Vec3::Zero(), n.normalized(), 1.0}; };
 
     SECTION("in another order, with a new one between")
     {
-        match_carried(network, pair, {towards(Vec3(0.1, 0, 1)), towards(-Vec3::UnitY()), towards(Vec3(1, 0.1, 0))});
+        match_carried(carried, pair, {towards(Vec3(0.1, 0, 1)), towards(-Vec3::UnitY()), towards(Vec3(1, 0.1, 0))});
         CHECK(pair.carried == 3);
-        CHECK(network.wall_carried.impulse == std::vector<Vec3>{Vec3(0, 0, 3), Vec3::Zero(), Vec3(1, 0, 0)});
-        CHECK(network.wall_carried.touched == std::vector<std::uint8_t>{1, 0, 1});
+        CHECK(carried.walls.impulse == std::vector<Vec3>{Vec3(0, 0, 3), Vec3::Zero(), Vec3(1, 0, 0)});
+        CHECK(carried.walls.touch[0].touched());
+        CHECK_FALSE(carried.walls.touch[1].touched());
+        CHECK(carried.walls.touch[2].touched());
     }
     SECTION("with one gone")
     {
-        match_carried(network, pair, {towards(Vec3::UnitZ())});
+        match_carried(carried, pair, {towards(Vec3::UnitZ())});
         CHECK(pair.carried == 1);
-        CHECK(network.wall_carried.impulse[0] == Vec3(0, 0, 3));
+        CHECK(carried.walls.impulse[0] == Vec3(0, 0, 3));
     }
     SECTION("with all gone")
     {
-        match_carried(network, pair, {});
+        match_carried(carried, pair, {});
         CHECK(pair.carried == 0);
     }
     SECTION("with a normal that is too different to be the same contact")
     {
-        match_carried(network, pair, {towards(Vec3(0, -1, 0.9))});
-        CHECK(network.wall_carried.impulse[0] == Vec3::Zero());
+        match_carried(carried, pair, {towards(Vec3(0, -1, 0.9))});
+        CHECK(carried.walls.impulse[0] == Vec3::Zero());
     }
 }

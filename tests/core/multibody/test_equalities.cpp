@@ -89,7 +89,7 @@ TEST_CASE("rows that depend on each other within one block have a pseudo-inverse
     const Eigen::VectorXd velocity = test::random_matrix(random, 6, 1);
     problem.add_constraint({.law = Law::equality}, {{0, rows}}, Eigen::VectorXd::Zero(8), rows * velocity);
     for (const auto solve : {+[](Iterate& x) { return solve_with_residual_update(x, exact()); },
-             +[](Iterate& x) -> SolveReport { return solve_with_local_residual(x, exact()); },
+             +[](Iterate& x) -> IterationReport { return solve_with_local_residual(x, exact()); },
              +[](Iterate& x) { return solve_projected(x, exact()); }}) {
         Iterate x(problem);
         solve(x);

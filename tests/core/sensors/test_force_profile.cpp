@@ -31,7 +31,7 @@ TEST_CASE("a cut through a tower at rest carries what lies above it, and the flo
     const World world = tower(6, up);
     // Between the feet, at whole diameters: the upper half of the lowest sphere is above none, the others as they lie.
     const ForceProfile cuts(world.state, up, 5);
-    const auto forces = cuts.forces(world.state, world.contacts, world.report, world.model.time_step);
+    const auto forces = cuts.forces(world.state, world.network, world.report, world.model.time_step);
     const double weight = world.mass() * standard_gravity;
     REQUIRE(forces.size() == 6);
     for (int k = 0; k < 6; ++k) CHECK(forces[static_cast<std::size_t>(k)] == within(1e-9, (6 - k) * weight));
@@ -43,7 +43,7 @@ TEST_CASE("cuts stay where they were laid", "[force_profile]")
     const ForceProfile cuts(world.state, Vec3::UnitZ(), 3);
     for (Vec3& x : world.state.position) x.z() += d;
     // The tower is a diameter higher: no force through the lowest cut, which it has left below.
-    const auto forces = cuts.forces(world.state, world.contacts, world.report, world.model.time_step);
+    const auto forces = cuts.forces(world.state, world.network, world.report, world.model.time_step);
     CHECK(forces[1] == 0.0);
     CHECK(forces[2] == within(1e-9, 3 * world.mass() * standard_gravity));
 }
@@ -54,6 +54,6 @@ TEST_CASE("a sphere that falls is held up by nothing", "[force_profile]")
     world.add_sphere(Vec3(0, 0, 1.0));
     world.step();
     const ForceProfile cuts(world.state, Vec3::UnitZ(), 2);
-    for (const double force : cuts.forces(world.state, world.contacts, world.report, world.model.time_step))
+    for (const double force : cuts.forces(world.state, world.network, world.report, world.model.time_step))
         CHECK(force == 0.0);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/region.hpp"
 #include "core/sensors/mass_flow.hpp"
-#include "core/supply/outlet.hpp"
+#include "core/supply/removal.hpp"
 #include "tests/support/sampling.hpp"
 
 #include <catch2/catch.hpp>
@@ -125,10 +125,10 @@ TEST_CASE("a sphere that left through an outlet has passed", "[mass_flow]")
 
     for (int i = 0; i < 40; ++i) stream.state.leaving[static_cast<std::size_t>(i)] = 1;
     Outflow outflow;
-    ContactNetwork contacts;
+    ContactNetwork network;
     Model model;
     model.max_diameter = 2.0 * radius;
-    empty_outlets(outflow, stream.state, contacts, model);
+    empty_outlets(outflow, stream.state, network, model);
     stream.move_to(0.7);
     sample(sensor, stream.state, Model{});
     CHECK(sensor.latest()[1].value == 70.0);
@@ -168,13 +168,13 @@ TEST_CASE("across a periodic axis a uniform flow is its mass times speed over th
     const double mass = 7 * state.mass(0);
     const auto flow_along = [&](const Vec3& normal) {
         MassFlow sensor("flow", Vec3(0.07, 0, 0), normal, {0.1, 0.9});
-        const ContactNetwork no_contacts;
+        const ContactNetwork no_network;
         const StepReport no_step;
         for (state.steps = 1; state.steps <= 1000; ++state.steps) {
             state.time = static_cast<double>(state.steps) * model.time_step;
             for (auto& x : state.position) x = model.periodicity.wrapped(x + model.time_step * Vec3(0.5, 3.0, 0));
-            sensor.watch({state, model, no_contacts, no_step});
-            if (state.steps % 5 == 0) sensor.sample({state, model, no_contacts, no_step});
+            sensor.watch({state, model, no_network, no_step});
+            if (state.steps % 5 == 0) sensor.sample({state, model, no_network, no_step});
         }
         CHECK(sensor.latest()[0].value == Approx(normal.x() * mass * 0.5 * 1.0 / 0.2));
         return sensor.results();

@@ -29,7 +29,7 @@ std::map<std::string, double> values(const std::vector<Measurement>& measurement
 std::map<std::string, double> measure(const World& world, const Region& region)
 {
     RegionAverage sensor("there", region, {});
-    sensor.sample({world.state, world.model, world.contacts, world.report});
+    sensor.sample({world.state, world.model, world.network, world.report});
     return values(sensor.latest());
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("a region sensor that was stored goes on as if nothing had been", "[re
     const Region region = box(Vec3(-d, -d, 0), Vec3(d, d, 3 * d));
     RegionAverage whole("a", region, {}), first("a", region, {}), second("a", region, {});
     const auto watch = [&](RegionAverage& sensor) {
-        sensor.sample({world.state, world.model, world.contacts, world.report});
+        sensor.sample({world.state, world.model, world.network, world.report});
     };
     for (int k = 0; k < 30; ++k) {
         world.step(10);

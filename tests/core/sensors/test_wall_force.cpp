@@ -19,9 +19,9 @@ void step_with(World& world, WallForce& sensor, int count)
 {
     for (int k = 0; k < count; ++k) {
         world.step();
-        sensor.watch({world.state, world.model, world.contacts, world.report});
+        sensor.watch({world.state, world.model, world.network, world.report});
     }
-    sensor.sample({world.state, world.model, world.contacts, world.report});
+    sensor.sample({world.state, world.model, world.network, world.report});
 }
 
 /// An empty world above a floor; rolling resistance keeps heaps from flowing.
@@ -92,7 +92,7 @@ TEST_CASE("the walls of a box bear together what a sphere in it weighs", "[wall_
     for (int k = 0; k < 20; ++k) {
         world.step();
         for (WallForce* sensor : {&left, &right})
-            sensor->watch({world.state, world.model, world.contacts, world.report});
+            sensor->watch({world.state, world.model, world.network, world.report});
     }
     const double half = 0.5 * world.mass() * standard_gravity;
     CHECK(left.results()[0].value == Approx(-half).epsilon(1e-9));
@@ -105,7 +105,7 @@ TEST_CASE(
     "a sample is the mean over every step since the last one, and the results are over the window", "[wall_force]")
 {
     State state;
-    ContactNetwork contacts;
+    ContactNetwork network;
     Model model;
     model.time_step = 0.5;
     StepReport report;
@@ -114,13 +114,13 @@ TEST_CASE(
         state.time = model.time_step * k;
         report.wall_loads.assign(2, WallLoad{});
         report.wall_loads[1].impulse.x() = 0.5 * k; // a force of k newton
-        sensor.watch({state, model, contacts, report});
-        if (k == 4) sensor.sample({state, model, contacts, report});
+        sensor.watch({state, model, network, report});
+        if (k == 4) sensor.sample({state, model, network, report});
     }
     CHECK(sensor.latest()[0].value == Approx(2.5)); // of 1 to 4
-    sensor.sample({state, model, contacts, report});
+    sensor.sample({state, model, network, report});
     CHECK(sensor.latest()[0].value == Approx(8.5)); // of 5 to 12
-    sensor.sample({state, model, contacts, report});
+    sensor.sample({state, model, network, report});
     CHECK(sensor.latest()[0].value == Approx(8.5));  // no step since
     CHECK(sensor.results()[0].value == Approx(8.5)); // of 7 to 10
 }
@@ -132,7 +132,7 @@ TEST_CASE("a wall force that was stored goes on as if nothing had been", "[wall_
     WallForce whole("a", 0, Vec3::Zero(), {}), first("a", 0, Vec3::Zero(), {}), second("a", 0, Vec3::Zero(), {});
     for (int k = 0; k < 500; ++k) {
         world.step();
-        const Snapshot now{world.state, world.model, world.contacts, world.report};
+        const Snapshot now{world.state, world.model, world.network, world.report};
         for (WallForce* sensor : {&whole, k < 255 ? &first : &second}) {
             sensor->watch(now);
             if (k % 10 == 0) sensor->sample(now);

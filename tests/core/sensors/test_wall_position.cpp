@@ -38,9 +38,9 @@ TEST_CASE("the position of a plate is told along its guide, with its speed and t
     CHECK(std::isnan(value(sensor.latest(), "travel")));
     for (int k = 0; k < 100; ++k) {
         world.step();
-        sensor.watch({world.state, world.model, world.contacts, world.report});
+        sensor.watch({world.state, world.model, world.network, world.report});
     }
-    sensor.sample({world.state, world.model, world.contacts, world.report});
+    sensor.sample({world.state, world.model, world.network, world.report});
     // v = a n h, x = ½ a h² n (n + 1); the mean over n = 1 … N of these is a h (N + 1)/2 and a h² (N + 1)(N + 2)/6.
     CHECK(value(sensor.latest(), "speed") == within(1e-12, 2.0 * 0.1));
     CHECK(value(sensor.latest(), "travel") == within(1e-12, 2.0 * h * h * 0.5 * 100 * 101));
@@ -57,8 +57,8 @@ TEST_CASE("a plate that is held has no load yet, and results are of their window
     WallPosition held("held", 0, {0.0, 40.5 * h}), free("free", 0, {51.5 * h, 1.0});
     for (int k = 0; k < 100; ++k) {
         world.step();
-        held.watch({world.state, world.model, world.contacts, world.report});
-        free.watch({world.state, world.model, world.contacts, world.report});
+        held.watch({world.state, world.model, world.network, world.report});
+        free.watch({world.state, world.model, world.network, world.report});
     }
     CHECK(value(held.results(), "load") == 0.0);
     CHECK(value(held.results(), "travel") == Approx(0.0).margin(1e-12));

@@ -54,9 +54,9 @@ std::vector<DenseContact> dense_contacts(const ContactNetwork& network)
         dense.a = static_cast<std::size_t>(contact.a);
         dense.b = with_wall ? 0 : static_cast<std::size_t>(contact.b);
         dense.with_wall = with_wall;
-        if (&arrays == &network.piston_contacts) {
+        if (&arrays == &network.contacts.pistons) {
             dense.piston = 0;
-            dense.piston_arm = network.piston_arms[k];
+            dense.piston_arm = network.contacts.piston_arms[k];
         }
         if (with_wall && !arrays.wall.empty()) {
             dense.wall_velocity = arrays.wall[k].velocity;
@@ -116,18 +116,18 @@ Difference compare(const ContactNetwork& network, const State& state, const Dens
 void begin(World& world)
 {
     world.update_candidates();
-    assemble_contacts(world.contacts, world.state, world.model, world.placed_walls());
+    assemble_contacts(world.network, world.state, world.model, {world.model.time_step}, world.placed_walls());
     for (Motion& motion : world.state.motion) motion.velocity += world.model.time_step * world.model.gravity;
 }
 
 /// From the impulses of the last step on.
 SolveReport solve_begun(World& world, const SolverSettings& solver)
 {
-    PistonGroup pistons(world.contacts, world.state, world.model);
-    const double warm_size = apply_warm_start(world.contacts, pistons, world.state.motion, world.model.physics);
+    PistonGroup pistons(world.network, world.state, world.model, world.model.time_step);
+    const double warm_size = apply_warm_start(world.network, pistons, world.state.motion, world.model.physics);
     const auto report =
-        solve_contacts(world.contacts, pistons, world.state.motion, world.model.physics, solver, warm_size);
-    pistons.store(world.contacts, world.state);
+        solve_contacts(world.network, pistons, world.state.motion, world.model.physics, solver, warm_size);
+    pistons.store(world.network, world.state);
     return report;
 }
 
@@ -201,13 +201,13 @@ TEST_CASE("with a piston, whose contacts have coupled blocks, sweeps are those o
     const Disk plate{Vec3(5, 4, 6.5) * standard_radius, Vec3::UnitZ(), 3.0 * standard_radius, 0.0};
     world.add_piston(plate, 0.02, Vec3(0.1, 0.05, -1), {{0.0, 2.0}});
     ContactNetwork unlisted; // there is one more wall to search for
-    std::swap(world.contacts, unlisted);
+    std::swap(world.network, unlisted);
     world.step(200);
     advance_until(
-        world, [](const World& w) { return w.contacts.piston_contacts.count[0] >= 4; }, 2000);
+        world, [](const World& w) { return w.network.contacts.pistons.count[0] >= 4; }, 2000);
     world.add_sphere(Vec3(standard_radius + 1e-4, 4 * standard_radius, 30 * standard_radius), Vec3(-2, 1, 0));
     check_against_oracle(world, sweeps);
-    CHECK(world.contacts.piston_contacts.count[0] >= 3);
+    CHECK(world.network.contacts.pistons.count[0] >= 3);
 }
 
 TEST_CASE("relaxed sweeps are those of Algorithm 3.1 with the note's scaled d", "[gauss_seidel][oracle]")
@@ -252,11 +252,11 @@ void check_against_oracle(World& world, int sweeps)
 {
     const Model& model = world.model;
     begin(world);
-    const auto contacts = dense_contacts(world.contacts);
+    const auto contacts = dense_contacts(world.network);
     REQUIRE(contacts.size() > 20);
-    REQUIRE(has_kind(world.contacts, ContactKind::open));
-    REQUIRE(has_kind(world.contacts, ContactKind::resting));
-    REQUIRE(has_kind(world.contacts, ContactKind::impact) == model.physics.restitution);
+    REQUIRE(has_kind(world.network, ContactKind::open));
+    REQUIRE(has_kind(world.network, ContactKind::resting));
+    REQUIRE(has_kind(world.network, ContactKind::impact) == model.physics.restitution);
 
     // Without friction no row has spin either.
     auto dense = make_dense_problem(world.state, contacts, model.physics.spin);
@@ -271,7 +271,7 @@ void check_against_oracle(World& world, int sweeps)
     solver.tolerance = 0.0;
     const auto report = solve_begun(world, solver);
 
-    const auto difference = compare(world.contacts, world.state, dense);
+    const auto difference = compare(world.network, world.state, dense);
     CHECK(difference.impulse < 1e-10);
     CHECK(difference.rolling_impulse < 1e-10);
     CHECK(difference.velocity < 1e-10);

@@ -41,10 +41,10 @@ State run(int threads, Stabilisation stabilisation)
     model.solver.stabilisation = stabilisation;
     model.solver.push_out_speed = 0.03;
     auto state = agitated_box(model, 7);
-    ContactNetwork contacts;
+    ContactNetwork network;
     const int before = omp_get_max_threads();
     omp_set_num_threads(threads);
-    for (int k = 0; k < 400; ++k) advance(state, contacts, model);
+    for (int k = 0; k < 400; ++k) advance(state, network, model);
     omp_set_num_threads(before);
     return state;
 }
@@ -64,10 +64,10 @@ State run_stirred(int threads)
     model.walls[0].shape = grain_bed({Vec3(0, 0, 0.003), Vec3(0.13, 0.13, 0.003)}, 0.01, 0.012);
     model.walls[0].motion = {Shaking{{}, Vec3(0.002, 0, 0.001), 30.0}};
     model.walls[1].motion = {Turning{{}, Vec3(0.1, 0.1, 0.03), Vec3::UnitX(), 20.0}};
-    ContactNetwork contacts;
+    ContactNetwork network;
     const int before = omp_get_max_threads();
     omp_set_num_threads(threads);
-    for (int k = 0; k < 150; ++k) advance(state, contacts, model);
+    for (int k = 0; k < 150; ++k) advance(state, network, model);
     omp_set_num_threads(before);
     return state;
 }
@@ -87,10 +87,10 @@ State run_pressed(int threads)
         .load = {{0.0, 5.0}}});
     state.pistons.resize(1);
     state.pistons[0].pose.shift = -0.22 * model.pistons[0].guide;
-    ContactNetwork contacts;
+    ContactNetwork network;
     const int before = omp_get_max_threads();
     omp_set_num_threads(threads);
-    for (int k = 0; k < 600; ++k) advance(state, contacts, model);
+    for (int k = 0; k < 600; ++k) advance(state, network, model);
     omp_set_num_threads(before);
     return state;
 }

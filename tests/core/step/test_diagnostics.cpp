@@ -14,7 +14,7 @@ namespace
 struct ThreeSpheres {
     Model model;
     State state;
-    ContactNetwork contacts;
+    ContactNetwork network;
 
     ThreeSpheres()
     {
@@ -27,7 +27,7 @@ struct ThreeSpheres {
         for (int i = 0; i < 3; ++i) add_sphere(state, Vec3(0.3 * i, 0, 0), 0.005, 2500.0, 0);
     }
 
-    std::vector<Incident> step() { return advance(state, contacts, model).incidents; }
+    std::vector<Incident> step() { return advance(state, network, model).bodies.incidents; }
 };
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/archive.hpp"
 #include "core/base/region.hpp"
-#include "core/step/sub_steps.hpp"
+#include "core/step/time_step.hpp"
 #include "tests/support/world.hpp"
 
 #include <algorithm>
@@ -101,7 +101,7 @@ TEST_CASE("a stack at rest does not notice steps that are split for a sphere far
             world.step();
             alone.step();
             most_sub_steps = std::max(most_sub_steps, world.report.sub_steps);
-            worst_force = std::max(worst_force, std::abs(world.report.wall_impulse.z() / time_step / weight - 1));
+            worst_force = std::max(worst_force, std::abs(world.report.outcome.wall_impulse.z() / time_step / weight - 1));
             for (int i = 0; i < 10; ++i) {
                 farthest = std::max(farthest, (world.position(i) - alone.position(i)).norm());
                 liveliest = std::max(liveliest, kinetic_energy(world.state.motion[world.index_of(i)]));
@@ -162,11 +162,10 @@ TEST_CASE("a fast gas is the same bits after a restart, and with any number of t
     omp_set_num_threads(1);
     through.step(60);
     Archive stored;
-    stored(through.state, through.contacts);
+    stored(through.state, through.network);
     Archive archive(stored.bytes());
     World resumed = fast_gas(stabilisation);
-    archive(resumed.state, resumed.contacts);
-    resumed.contacts.resize_contacts(resumed.model.physics);
+    archive(resumed.state, resumed.network);
     through.step(60);
     CHECK(through.report.sub_steps > 1);
     omp_set_num_threads(3);

@@ -33,7 +33,7 @@ TEST_CASE("every scene in scenarios/ builds and runs ten steps", "[scenarios]")
             // Places with six digits, as files of other programs have them, overlap by a little.
             const bool imported = path.stem() == "import";
             CHECK(check_overlaps(simulation).worst <= (imported ? 1e-3 * simulation.model.mean_diameter : 0.0));
-            for (int k = 0; k < 10; ++k) CHECK(step(simulation).incidents.empty());
+            for (int k = 0; k < 10; ++k) CHECK(advance(simulation).bodies.incidents.empty());
             CHECK(simulation.state.steps == 10);
             CHECK(simulation.state.count() > 0);
         }

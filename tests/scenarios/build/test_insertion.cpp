@@ -101,7 +101,7 @@ TEST_CASE("a pour by mass in the scene is one in the simulation", "[insertion]")
     auto simulation = build_scene(scene);
     const auto& pour = simulation.pours.at(0);
     CHECK(pour.mixture.species.at(0).number > pour.mixture.species.at(1).number);
-    while (simulation.state.time < 0.1) step(simulation);
+    while (simulation.state.time < 0.1) advance(simulation);
     CHECK(is_over(pour));
     CHECK(pour.poured_mass >= 0.02);
     CHECK(pour.poured_mass < 0.021);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/step/press.hpp"
+#include "core/step/incidents.hpp"
 
-#include "core/contacts/loaded_contacts.hpp"
+#include "core/contacts/loads.hpp"
 
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -38,7 +39,7 @@ struct Press {
     std::set<std::int64_t> spheres; ///< ids
     std::set<std::int32_t> walls;
     bool is_new = false, is_known = false;
-    double overlap = 0.0;    ///< of the deepest contact that is beyond solution
+    double overlap = 0.0;    ///< of the deepest jammed contact
     std::int32_t sphere = 0; ///< one that it presses, by storage index
 };
 
@@ -53,23 +54,22 @@ std::vector<Incident> find_presses(const ContactNetwork& network, const State& s
     });
 
     std::map<std::int32_t, Press> presses;
-    const auto add = [&](const Contact& c, const ContactGeometry& g, std::uint8_t touched) -> Press& {
+    const auto add = [&](const Contact& c, const ContactGeometry& g, const TouchRecord& touch) -> Press& {
         Press& press = presses[groups.of(c.a)];
         press.spheres.insert(state.id[c.a]);
-        const bool is_new = came_beyond_solution(touched);
-        press.is_known = press.is_known || (is_beyond_solution(touched) && !is_new);
-        press.is_new = press.is_new || is_new;
-        if (is_beyond_solution(touched) && -g.gap > press.overlap) {
+        press.is_known = press.is_known || (touch.is_jammed() && !touch.is_newly_jammed());
+        press.is_new = press.is_new || touch.is_newly_jammed();
+        if (touch.is_jammed() && -g.gap > press.overlap) {
             press.overlap = -g.gap;
             press.sphere = c.a;
         }
         return press;
     };
     for_each_loaded_sphere_contact(network, [&](const Contact& c, const ContactGeometry& g) {
-        if (is_deep(g)) add(c, g, network.pair_carried.touched[g.slot]).spheres.insert(state.id[c.b]);
+        if (is_deep(g)) add(c, g, network.carried.pairs.touch[g.slot]).spheres.insert(state.id[c.b]);
     });
     for_each_loaded_wall_contact(network, [&](const Contact& c, const ContactGeometry& g) {
-        if (is_deep(g)) add(c, g, network.wall_carried.touched[g.slot]).walls.insert(c.b);
+        if (is_deep(g)) add(c, g, network.carried.walls.touch[g.slot]).walls.insert(c.b);
     });
 
     std::vector<Incident> incidents;
@@ -85,6 +85,17 @@ std::vector<Incident> find_presses(const ContactNetwork& network, const State& s
             .overlap = press.overlap});
     }
     return incidents;
+}
+
+void add_incidents(std::vector<Incident>& all, std::vector<Incident> next)
+{
+    for (const Incident& earlier : all)
+        std::erase_if(next, [&](const Incident& incident) {
+            return incident.kind == earlier.kind && incident.id == earlier.id &&
+                   (!incident.of_piston() || incident.last_wall == earlier.last_wall);
+        });
+    next.insert(next.end(), std::make_move_iterator(all.begin()), std::make_move_iterator(all.end()));
+    all = std::move(next);
 }
 
 } // namespace talus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/region.hpp"
-#include "core/step/press.hpp"
+#include "core/step/incidents.hpp"
 #include "tests/support/world.hpp"
 
 #include <cmath>
@@ -31,47 +31,49 @@ int incidents_in(World& world, int steps)
     int incidents = 0;
     for (int k = 0; k < steps; ++k) {
         world.step();
-        incidents += static_cast<int>(world.report.incidents.size());
+        incidents += static_cast<int>(world.report.bodies.incidents.size());
     }
     return incidents;
 }
 
 } // namespace
 
-TEST_CASE(
-    "a contact is beyond solution when it has been pressed for its steps on end, and comes to be so once", "[press]")
+TEST_CASE("a contact is jammed when it has been pressed for its steps in a row, and comes to be so once", "[press]")
 {
-    std::uint8_t touched = 0;
+    TouchRecord touch;
     for (int k = 1; k <= 300; ++k) {
-        touched = count_pressed(touched);
-        CHECK(is_beyond_solution(touched) == (k >= pressed_steps));
-        CHECK(came_beyond_solution(touched) == (k == pressed_steps));
+        touch.note_pressed();
+        CHECK(touch.is_jammed() == (k >= TouchRecord::jam_steps));
+        CHECK(touch.is_newly_jammed() == (k == TouchRecord::jam_steps));
     }
 }
 
-TEST_CASE("what is beyond solution yields until it has not been pressed for as many steps, and is told once", "[press]")
+TEST_CASE("a jammed contact yields until it has not been pressed for as many steps, and is told once", "[press]")
 {
-    std::uint8_t touched = 0;
-    for (int k = 1; k <= pressed_steps; ++k) touched = count_pressed(touched);
-    REQUIRE(came_beyond_solution(touched));
-    for (int k = 1; k < pressed_steps; ++k) {
-        touched = count_unpressed(touched);
-        CHECK(is_beyond_solution(touched));
-        CHECK_FALSE(came_beyond_solution(touched));
+    TouchRecord touch;
+    for (int k = 1; k <= TouchRecord::jam_steps; ++k) touch.note_pressed();
+    REQUIRE(touch.is_newly_jammed());
+    for (int k = 1; k < TouchRecord::jam_steps; ++k) {
+        touch.note_unpressed();
+        CHECK(touch.is_jammed());
+        CHECK_FALSE(touch.is_newly_jammed());
     }
+    const auto is_as_any_other = [&] {
+        touch.note_unpressed();
+        return touch.touched() && !touch.is_jammed();
+    };
     SECTION("one step more, and it is as any other")
     {
-        touched = count_unpressed(touched);
-        CHECK(touched == 1);
-        CHECK(count_unpressed(touched) == 1);
+        CHECK(is_as_any_other());
+        CHECK(is_as_any_other());
     }
     SECTION("pressed again, it yields for as long again")
     {
-        touched = count_pressed(touched);
-        CHECK_FALSE(came_beyond_solution(touched));
-        for (int k = 1; k < pressed_steps; ++k) touched = count_unpressed(touched);
-        CHECK(is_beyond_solution(touched));
-        CHECK(count_unpressed(touched) == 1);
+        touch.note_pressed();
+        CHECK_FALSE(touch.is_newly_jammed());
+        for (int k = 1; k < TouchRecord::jam_steps; ++k) touch.note_unpressed();
+        CHECK(touch.is_jammed());
+        CHECK(is_as_any_other());
     }
 }
 

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/archive.hpp"
+#include "core/base/vector.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace talus
+{
+
+/// What is known of a contact from the steps before: whether it touched, and for how long it has been jammed.
+///
+/// Walls that move as told may ask for what rigid bodies cannot do: a press that closes on a sphere. Then no velocity
+/// obeys all contacts, the impulses grow with every sweep, and the residual, which is relative to them, comes to say
+/// that all is well. What tells it is a contact that has an impulse, overlaps, and closes even so (it is *pressed*, see
+/// carry.cpp), for many steps without a break: it is *jammed*. A jammed contact yields (law.hpp), so that impulses stay
+/// finite and none is left over when the press opens; until it overlaps less, or has not been pressed for as many steps
+/// in a row: while its old impulse gives way, it may not close for some.
+class TouchRecord
+{
+public:
+    static constexpr int jam_steps = 100; ///< pressed for so many steps in a row, a contact is jammed
+
+    /// In the step before it overlapped or, unless open, had an impulse.
+    bool touched() const { return state_ > 0; }
+    bool is_jammed() const { return state_ > jam_steps; }
+    /// In the step before, it came to be so.
+    bool is_newly_jammed() const { return state_ == 1 + jam_steps; }
+
+    /// A step in which it is not deep enough to be pressed.
+    void note_touch(bool touched) { state_ = touched; }
+    /// A step in which it is pressed.
+    void note_pressed()
+    {
+        if (is_jammed())
+            state_ = freshly_pressed;
+        else
+            state_ = static_cast<std::uint8_t>((state_ > 1 ? state_ : 1) + 1);
+    }
+    /// A step in which it is as deep, and not pressed.
+    void note_unpressed()
+    {
+        if (is_newly_jammed()) state_ = freshly_pressed;
+        state_ = state_ > 2 + jam_steps ? static_cast<std::uint8_t>(state_ - 1) : 1;
+    }
+
+private:
+    static constexpr int freshly_pressed = 1 + 2 * jam_steps;
+
+    /// 0: did not touch; 1: did; to 1 + jam_steps: pressed for one step less; from freshly_pressed down to 2 +
+    /// jam_steps: jammed, and not pressed for as many steps as are missing.
+    std::uint8_t state_ = 0;
+};
+
+/// From this overlap on, in smallest diameters, a contact can be pressed.
+inline constexpr double pressed_overlap = 0.01;
+
+/// The impulses that contacts hand on from one step to the next, by slot: a slot is a listed pair, or one of those of a
+/// listed wall.
+struct CarriedImpulses {
+    std::vector<Vec3> impulse;         ///< λ [N s], zero where nothing is carried
+    std::vector<Vec3> rolling_impulse; ///< [N m s]; empty unless the scene has rolling resistance
+    std::vector<TouchRecord> touch;
+
+    CarriedImpulses() = default;
+    CarriedImpulses(std::size_t slots, bool with_rolling);
+    void persist(Archive& archive) { archive(impulse, rolling_impulse, touch); }
+    void clear(std::size_t slot);
+    void scale(double factor); ///< all of them
+    void copy(std::size_t slot, const CarriedImpulses& from, std::size_t from_slot, bool opposite = false);
+};
+
+/// All that contacts hand on.
+struct Carried {
+    CarriedImpulses pairs;          ///< by pair of the candidate list
+    CarriedImpulses walls;          ///< by wall slot of the candidate list
+    std::vector<Vec3> wall_normal;  ///< by wall slot: the normal by which the next step knows a wall contact again
+    double impulse_step = infinity; ///< for how long the impulses have acted [s]; infinite before the first step
+
+    void persist(Archive& archive) { archive(pairs, walls, wall_normal, impulse_step); }
+    /// Impulses go with the length of the step: those of a step of another length are scaled. Returns by how much.
+    double scale_to(double step);
+};
+
+} // namespace talus

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contacts/loads.hpp"
+
+namespace talus
+{
+
+std::vector<SphereLoad> sphere_loads(const ContactNetwork& network, std::size_t spheres)
+{
+    std::vector<SphereLoad> loads(spheres);
+    const auto add = [&](std::int32_t sphere, const Vec3& impulse) {
+        loads[sphere].impulse += impulse;
+        ++loads[sphere].contacts;
+    };
+    for_each_loaded_sphere_contact(network, [&](const Contact& c, const ContactGeometry&) {
+        add(c.a, c.impulse);
+        add(c.b, -c.impulse);
+    });
+    for_each_loaded_wall_contact(network, [&](const Contact& c, const ContactGeometry&) { add(c.a, c.impulse); });
+    return loads;
+}
+
+WallLoad& WallLoad::operator+=(const WallLoad& other)
+{
+    impulse += other.impulse;
+    torque += other.torque;
+    return *this;
+}
+
+std::vector<WallLoad> wall_loads(const ContactNetwork& network, const State& state, std::size_t walls)
+{
+    std::vector<WallLoad> loads(walls);
+    for (const ContactArrays* contacts : {&network.contacts.walls, &network.contacts.pistons})
+        for (std::size_t tile = 0; tile < contacts->tiles(); ++tile)
+            for (const std::size_t k : contacts->of_tile(tile)) {
+                const Contact& c = contacts->contact[k];
+                const Vec3 point = state.position[c.a] - state.radius(c.a) * c.normal;
+                loads[c.b].impulse -= c.impulse;
+                loads[c.b].torque -= point.cross(c.impulse);
+                if (!contacts->rolling.empty()) loads[c.b].torque -= contacts->rolling[k].impulse;
+            }
+    return loads;
+}
+
+} // namespace talus
