@@ -25,7 +25,7 @@ State swept_by_kernel(const Simulation& simulation, int sweeps)
     State state = simulation.state;
     auto network = simulation.network;
     const Model& model = simulation.model;
-    PistonGroup pistons(network, state, model);
+    PistonGroup pistons(network, state, model, model.time_step);
     for (Motion& m : state.motion) m.velocity += model.time_step * model.gravity;
     SolverSettings solver = model.solver;
     solver.tolerance = 0.0;
