@@ -2,7 +2,7 @@
 #include "io/problem/hdf5_reader.hpp"
 
 #include "io/text/input_error.hpp"
-#include "io/text/toml_value.hpp"
+#include "io/text/sentence.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/quiet_vtk.hpp"
 
-#include "io/text/toml_value.hpp"
+#include "io/text/sentence.hpp"
 
 #include <vtkObjectFactory.h>
 

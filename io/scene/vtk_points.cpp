@@ -5,7 +5,6 @@
 #include "io/scene/trial_run.hpp"
 #include "io/text/input_error.hpp"
 #include "io/text/input_file.hpp"
-#include "io/text/toml_value.hpp"
 
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
