@@ -38,8 +38,8 @@ public:
     /// @throws OutputError
     void write_walls(const Model& model, const State& state);
 
-    /// Likewise those that move, which have a series of their own, or a large wall that stands still would be written
-    /// again and again.
+    /// The walls that stand at this time and move. They have a series of their own, or a large wall that stands still
+    /// would be written again and again.
     /// @throws OutputError
     void write_moving_walls(const Model& model, const State& state);
 
