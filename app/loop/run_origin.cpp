@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/loop/run_origin.hpp"
 
-#include "io/scene/scene_files.hpp"
+#include "io/scene/named_files.hpp"
 #include "io/text/input_error.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ bool may_change(std::string_view key)
 
 RunOrigin origin_of(const std::string& scene_name, const scene::Scene& scene)
 {
-    return {scene_name, resolved_scene(scene), input_files(scene)};
+    return {scene_name, resolved_scene(scene), named_files(scene)};
 }
 
 void refuse_other_scene(const SceneFile& file, const RunOrigin& origin)
@@ -41,7 +41,7 @@ void refuse_other_scene(const SceneFile& file, const RunOrigin& origin)
         if (!may_change(key))
             throw InputError(fmt::format("{}: '{}' may not change when a run is resumed; what may is {}",
                 file.place_of(key), key, fmt::join(changeable, ", ")));
-    for (const auto& one : input_files(file.scene))
+    for (const auto& one : named_files(file.scene))
         if (std::ranges::find(origin.files, one) == origin.files.end())
             throw InputError(fmt::format(
                 "{}: the file has changed since the run began; it goes on only with the old one", one.first));

@@ -11,11 +11,11 @@
 #include "app/system/terminal.hpp"
 #include "core/base/statistics.hpp"
 #include "io/run/run_files.hpp"
+#include "io/scene/named_files.hpp"
 #include "io/scene/scene_file.hpp"
-#include "io/scene/scene_files.hpp"
 #include "io/scene/study_file.hpp"
-#include "io/text/checksum.hpp"
 #include "io/text/input_error.hpp"
+#include "io/text/input_file.hpp"
 #include "scenarios/build/build_scene.hpp"
 
 #include <algorithm>
@@ -116,7 +116,7 @@ private:
 std::string identity(const OpenedScene& opened, const scene::Study& study)
 {
     std::string content = resolved_scene(opened.scene);
-    for (const auto& [file, sum] : input_files(opened.scene)) content += fmt::format("{} {}\n", file, sum);
+    for (const auto& [file, sum] : named_files(opened.scene)) content += fmt::format("{} {}\n", file, sum);
     return fmt::format(
         "# Talus {}, scene {:08x}: {}\n{}", TALUS_VERSION, checksum(content), opened.name, resolved_study(study));
 }

@@ -28,7 +28,7 @@ enum class FclibForm { local, global, global_rolling };
 struct FclibGuess {
     Eigen::VectorXd v; ///< velocities of the bodies, one for each row of M; global forms
     Eigen::VectorXd u; ///< relative velocities at the contacts, rows_per_contact of each
-    Eigen::VectorXd r; ///< reactions (forces or impulses) at the contacts, likewise; r_n > 0 pushes apart
+    Eigen::VectorXd r; ///< reactions (forces or impulses), rows_per_contact of each contact; r_n > 0 pushes apart
     Eigen::VectorXd l; ///< reactions of the constraints, one for each column of G
 };
 
@@ -58,22 +58,17 @@ struct FclibProblem {
     std::vector<FclibGuess> guesses;
     FclibGuess solution;
 
-    Eigen::Index contacts() const { return mu.size(); } ///< N
+    Eigen::Index contacts() const { return mu.size(); }                         ///< N
+    Eigen::Index contact_rows() const { return rows_per_contact * contacts(); } ///< D N
 };
 
 /// Reads a problem with its guesses and its solution. Of a file with several problems the first of global,
 /// global_rolling and local is read. What FCLIB may store as triplets, compressed columns or compressed rows comes as
 /// compressed columns, with entries of the same place added up.
 /// @throws InputError where the file is missing, no HDF5 file or broken; lacks a group or dataset; holds a list of a
-///   wrong length, an index out of range, a negative friction or a number that is not finite; has constraints in the
-///   local form (V, R, s); or stores its numbers compressed or in chunks, which FCLIB never does
-///
-/// HDF5 crashes on some damaged files, so the file is first read in a copy of this process (fork) that may crash.
+///   wrong length, an index out of range, a negative friction or a number that is not finite; or has constraints in
+///   the local form (V, R, s)
 FclibProblem read_fclib(const std::filesystem::path& path);
-
-/// The same of the bytes of a file, without that copy.
-/// @param name with which the sentence of an error begins
-FclibProblem parse_fclib(const std::string& bytes, const std::string& name);
 
 /// Writes a problem with its guesses and its solution, so that other tools for FCLIB read it: matrices as triplets,
 /// empty vectors and texts left out. The file appears whole or not at all.

@@ -54,13 +54,6 @@ void require_space(const FclibProblem& file, const std::string& name)
         throw InputError(name + ": a problem in the plane, with two rows a contact; only those in space are solved");
 }
 
-VectorXd joined(const VectorXd& a, const VectorXd& b)
-{
-    VectorXd both(a.size() + b.size());
-    both << a, b;
-    return both;
-}
-
 multibody::MatrixProblem matrices_of(const FclibProblem& file)
 {
     multibody::MatrixProblem p;
@@ -70,42 +63,30 @@ multibody::MatrixProblem matrices_of(const FclibProblem& file)
     const Index contact_rows = file.H.cols();
     for (Index k = 0; k < file.G.cols(); ++k)
         p.constraints.push_back({.law = Law::equality, .first_row = contact_rows + k, .rows = 1});
-    std::vector<Eigen::Triplet<double>> entries;
-    const auto append = [&](const Eigen::SparseMatrix<double>& transposed, Index first_row) {
-        for (Index column = 0; column < transposed.cols(); ++column)
-            for (Eigen::SparseMatrix<double>::InnerIterator entry(transposed, column); entry; ++entry)
-                entries.emplace_back(first_row + column, entry.row(), entry.value());
-    };
-    append(file.H, 0);
-    append(file.G, contact_rows);
     p.jacobian.resize(contact_rows + file.G.cols(), file.M.rows());
-    p.jacobian.setFromTriplets(entries.begin(), entries.end());
-    p.target = -joined(file.w, file.b);
+    p.jacobian.topRows(contact_rows) = file.H.transpose();
+    if (file.G.cols() > 0) p.jacobian.bottomRows(file.G.cols()) = file.G.transpose();
+    p.target.resize(p.jacobian.rows());
+    p.target << -file.w, -file.b;
     p.compliance = VectorXd::Zero(p.target.size());
     return p;
 }
 
-/// A matrix made of blocks, entry by entry.
-class SparseEntries
+using Entries = std::vector<Eigen::Triplet<double>>;
+
+void add_block(Entries& entries, Index first_row, Index first_column, const Eigen::MatrixXd& block)
 {
-public:
-    void add(Index first_row, Index first_column, const Eigen::MatrixXd& block)
-    {
-        for (Index j = 0; j < block.cols(); ++j)
-            for (Index i = 0; i < block.rows(); ++i)
-                if (block(i, j) != 0.0) entries_.emplace_back(first_row + i, first_column + j, block(i, j));
-    }
+    for (Index j = 0; j < block.cols(); ++j)
+        for (Index i = 0; i < block.rows(); ++i)
+            if (block(i, j) != 0.0) entries.emplace_back(first_row + i, first_column + j, block(i, j));
+}
 
-    Eigen::SparseMatrix<double> matrix(Index rows, Index columns) const
-    {
-        Eigen::SparseMatrix<double> matrix(rows, columns);
-        matrix.setFromTriplets(entries_.begin(), entries_.end());
-        return matrix;
-    }
-
-private:
-    std::vector<Eigen::Triplet<double>> entries_;
-};
+Eigen::SparseMatrix<double> matrix_of(const Entries& entries, Index rows, Index columns)
+{
+    Eigen::SparseMatrix<double> matrix(rows, columns);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+}
 
 void set_friction(FclibProblem& file, const std::vector<Constraint>& contacts)
 {
@@ -131,23 +112,23 @@ std::vector<Constraint> contacts_in(const multibody::Problem& problem)
 /// M with a body for each compliance, H and G.
 void set_matrices(FclibProblem& file, const multibody::Problem& problem, Index contact_rows)
 {
-    SparseEntries M, transposed_jacobian;
+    Entries M, transposed_jacobian;
     for (std::size_t b = 0; b < problem.body_count(); ++b)
-        M.add(problem.first_dof(b), problem.first_dof(b), problem.mass(b));
+        add_block(M, problem.first_dof(b), problem.first_dof(b), problem.mass(b));
     for (std::size_t k = 0; k < problem.constraints().size(); ++k)
         for (std::size_t i = problem.first_block(k); i < problem.first_block(k + 1); ++i)
-            transposed_jacobian.add(problem.first_dof(problem.body_of_block(i)), problem.constraints()[k].first_row,
-                problem.jacobian(i).transpose());
+            add_block(transposed_jacobian, problem.first_dof(problem.body_of_block(i)),
+                problem.constraints()[k].first_row, problem.jacobian(i).transpose());
     Index dofs = problem.dofs();
     for (Index row = 0; row < contact_rows; ++row) {
         const double compliance = problem.compliance()[row];
         if (compliance == 0.0) continue;
-        M.add(dofs, dofs, Eigen::MatrixXd::Constant(1, 1, 1.0 / compliance));
-        transposed_jacobian.add(dofs, row, Eigen::MatrixXd::Ones(1, 1));
+        add_block(M, dofs, dofs, Eigen::MatrixXd::Constant(1, 1, 1.0 / compliance));
+        add_block(transposed_jacobian, dofs, row, Eigen::MatrixXd::Ones(1, 1));
         ++dofs;
     }
-    file.M = M.matrix(dofs, dofs);
-    const auto all_rows = transposed_jacobian.matrix(dofs, problem.rows());
+    file.M = matrix_of(M, dofs, dofs);
+    const auto all_rows = matrix_of(transposed_jacobian, dofs, problem.rows());
     file.H = all_rows.leftCols(contact_rows);
     file.G = all_rows.rightCols(problem.rows() - contact_rows);
 }

@@ -3,8 +3,8 @@
 
 #include "core/base/archive.hpp"
 #include "io/run/run_files.hpp"
-#include "io/text/checksum.hpp"
 #include "io/text/input_error.hpp"
+#include "io/text/input_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/supply/escape.hpp"
 #include "scenarios/simulation.hpp"
 
 #include <filesystem>
@@ -37,8 +38,8 @@ public:
     /// @throws OutputError
     void write_walls(const Model& model, const State& state);
 
-    /// Likewise those that move, which have a series of their own, or a large wall that stands still would be written
-    /// again and again.
+    /// The walls that stand at this time and move. They have a series of their own, or a large wall that stands still
+    /// would be written again and again.
     /// @throws OutputError
     void write_moving_walls(const Model& model, const State& state);
 
@@ -63,5 +64,9 @@ private:
     void write_list(const Series& series) const;
     void cut_back(const Series& series) const;
 };
+
+/// Writes lost.vtp into a run's folder: the spheres that escaped, each as it was then. Without any the file is removed.
+/// @throws OutputError
+void write_lost(const std::filesystem::path& folder, const std::vector<EscapedSphere>& escaped);
 
 } // namespace talus

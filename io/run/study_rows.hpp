@@ -17,7 +17,7 @@ struct StudyRow {
     std::int64_t seed = 0;
     std::string status = "done"; ///< or a sentence on why it failed
     double cpu = 0.0;            ///< of the steps, for a simulated second [s]
-    double updates = 0.0;        ///< contacts × sweeps, likewise
+    double updates = 0.0;        ///< contacts × sweeps, for a simulated second
     double memory = 0.0;         ///< the most it had [B]
     std::vector<Measurement> findings = {};
     std::vector<double> profile =

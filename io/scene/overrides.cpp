@@ -3,7 +3,7 @@
 
 #include "io/text/field_kind.hpp"
 #include "io/text/input_error.hpp"
-#include "io/text/nearest_name.hpp"
+#include "io/text/sentence.hpp"
 #include "io/text/toml_value.hpp"
 
 #include <fmt/format.h>

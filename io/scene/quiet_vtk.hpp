@@ -2,31 +2,16 @@
 #pragma once
 
 #include <vtkLogger.h>
-#include <vtkNew.h>
-#include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
 
 #include <string>
 
+class vtkOutputWindow;
+
 namespace talus
 {
 
-/// Keeps the first of VTK's errors instead of printing it.
-class VtkErrors : public vtkOutputWindow
-{
-public:
-    static VtkErrors* New();
-    vtkTypeMacro(VtkErrors, vtkOutputWindow);
-
-    void DisplayText(const char*) override {}
-    void DisplayWarningText(const char*) override {}
-    void DisplayErrorText(const char* text) override;
-
-    const std::string& first() const { return first_; }
-
-private:
-    std::string first_;
-};
+class VtkErrors;
 
 /// Has VTK's errors kept, and neither printed nor logged, as long as it lives: what users are told is our sentence.
 class QuietVtk
@@ -41,8 +26,8 @@ public:
     std::string sentence() const;
 
 private:
-    vtkNew<VtkErrors> errors_;
-    vtkSmartPointer<vtkOutputWindow> window_;
+    vtkSmartPointer<VtkErrors> errors_;
+    vtkSmartPointer<vtkOutputWindow> window_; ///< where errors went before
     vtkLogger::Verbosity verbosity_;
 };
 

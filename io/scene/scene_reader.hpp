@@ -19,7 +19,8 @@ using Places = std::map<std::string, std::string>;
 /// @throws InputError on the first key that is unknown, missing or not allowed
 scene::Scene read_tables(const toml::table& root, Places& places);
 
-/// Likewise every key of a study.
+/// Reads every key of a study from the tables of a file, and notes where each stands.
+/// @throws InputError on the first key that is unknown, missing or not allowed
 scene::Study read_study_tables(const toml::table& root, Places& places);
 
 } // namespace talus

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/stl.hpp"
 
-#include "io/text/finite_number.hpp"
 #include "io/text/input_error.hpp"
 #include "io/text/input_file.hpp"
 

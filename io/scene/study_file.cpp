@@ -2,8 +2,8 @@
 #include "io/scene/study_file.hpp"
 
 #include "io/scene/scene_reader.hpp"
-#include "io/text/toml_file.hpp"
 #include "io/text/toml_text.hpp"
+#include "io/text/toml_value.hpp"
 
 namespace talus
 {
@@ -11,7 +11,7 @@ namespace talus
 scene::Study read_study(const std::filesystem::path& path)
 {
     Places places;
-    return read_study_tables(parse_toml_file(path, "a study"), places);
+    return read_study_tables(parse_toml_file(path, "a study file"), places);
 }
 
 std::string resolved_study(const scene::Study& study)

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/text/csv.hpp"
 
-#include "io/text/finite_number.hpp"
 #include "io/text/input_error.hpp"
 #include "io/text/input_file.hpp"
-#include "io/text/nearest_name.hpp"
-#include "io/text/toml_value.hpp"
+#include "io/text/sentence.hpp"
 
 #include <fmt/format.h>
 

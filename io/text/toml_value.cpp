@@ -2,7 +2,8 @@
 #include "io/text/toml_value.hpp"
 
 #include "io/text/input_error.hpp"
-#include "io/text/nearest_name.hpp"
+#include "io/text/input_file.hpp"
+#include "io/text/sentence.hpp"
 
 #include <fmt/format.h>
 
@@ -71,17 +72,25 @@ std::string place_in(const toml::source_region& source)
     return fmt::format("{}:{}:{}", path, source.begin.line, source.begin.column);
 }
 
-std::string one_line(std::string_view text)
-{
-    std::string line(text);
-    std::ranges::replace_if(
-        line, [](unsigned char c) { return c < ' '; }, ' ');
-    return line;
-}
-
 std::string describe_error(const toml::parse_error& error)
 {
     return fmt::format("not TOML: {}", one_line(error.description()));
+}
+
+toml::table parse_toml(std::string_view text, const std::string& source)
+{
+    try {
+        return toml::parse(text, source);
+    } catch (const toml::parse_error& error) {
+        throw InputError(fmt::format("{}: {}", place_in(error.source()), describe_error(error)));
+    }
+}
+
+toml::table parse_toml_file(const std::filesystem::path& path, const std::string& kind)
+{
+    // Far above any scene or study, which holds numbers and names; geometry lies in files of its own.
+    constexpr std::uintmax_t largest = 1 << 20;
+    return parse_toml(read_bytes(path, kind, largest), path.string());
 }
 
 std::string describe_value(const toml::node& node)

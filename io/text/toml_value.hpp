@@ -5,6 +5,7 @@
 
 #include <toml++/toml.h>
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,11 +26,18 @@ std::string place_in(const toml::source_region& source);
 /// What every value from the command line has as the name of its source.
 inline constexpr std::string_view override_prefix = "--set ";
 
-/// The text with every line break or other control character as a space, for a sentence on one line.
-std::string one_line(std::string_view text);
-
 /// What is wrong with the TOML, on one line.
 std::string describe_error(const toml::parse_error& error);
+
+/// The tables of a TOML text.
+/// @param source what it comes from, for sentences
+/// @throws InputError where it is not TOML
+toml::table parse_toml(std::string_view text, const std::string& source);
+
+/// The tables of a TOML file.
+/// @param kind in sentences: "a scene file"
+/// @throws InputError where there is no such file, it is empty or above 1 MiB, or not TOML
+toml::table parse_toml_file(const std::filesystem::path& path, const std::string& kind);
 
 /// A value as a sentence names it: "the string 'high'", "-1.5", "a table".
 std::string describe_value(const toml::node& node);

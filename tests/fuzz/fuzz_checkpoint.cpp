@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/run/checkpoint.hpp"
-#include "io/text/checksum.hpp"
 #include "io/text/input_error.hpp"
+#include "io/text/input_file.hpp"
 #include "scenarios/build/build_scene.hpp"
 #include "tests/fuzz/fuzzed_file.hpp"
 #include "tests/scenarios/small_scene.hpp"

@@ -79,8 +79,7 @@ TEST_CASE("a file that is no scene is refused in one sentence", "[scene_file]")
           "scene.toml: a scene file has at most 1048576 bytes, this one 1048577");
     CHECK(folder.without_folder(error_of<InputError>([&] { read_scene(folder.path() / "none.toml"); })) ==
           "none.toml: no such file");
-    CHECK(error_of<InputError>([&] { read_scene(folder.path()); }) ==
-          folder.path().string() + ": not a file that holds a scene");
+    CHECK(error_of<InputError>([&] { read_scene(folder.path()); }) == folder.path().string() + ": not a scene file");
 }
 
 TEST_CASE("a missing or broken mesh is refused at the key that names it", "[scene_file]")

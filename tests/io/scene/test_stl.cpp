@@ -124,5 +124,5 @@ TEST_CASE("a mesh file that is missing, empty, a folder or too large is refused"
     CHECK(refusal(folder.path() / "folder.stl") == "folder.stl: not an STL file");
     const auto huge = folder.write("huge.stl", "solid");
     std::filesystem::resize_file(huge, (std::uintmax_t{1} << 30) + 1); // sparse
-    CHECK(refusal(huge) == "huge.stl: larger than the 1073741824 bytes that are read");
+    CHECK(refusal(huge) == "huge.stl: an STL file has at most 1073741824 bytes, this one 1073741825");
 }

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+/// What the sentences about bad input are made of.
 namespace talus
 {
 
@@ -16,5 +17,8 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string_vi
 
 /// "'draft', 'standard' or 'fine'" with the conjunction "or".
 std::string enumerate_names(const std::vector<std::string_view>& names, std::string_view conjunction);
+
+/// The text with every line break or other control character as a space, for a sentence on one line.
+std::string one_line(std::string_view text);
 
 } // namespace talus

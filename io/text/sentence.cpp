@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/text/nearest_name.hpp"
+#include "io/text/sentence.hpp"
 
 #include <fmt/format.h>
 
@@ -60,6 +60,14 @@ std::string enumerate_names(const std::vector<std::string_view>& names, std::str
         text += fmt::format("'{}'", names[i]);
     }
     return text;
+}
+
+std::string one_line(std::string_view text)
+{
+    std::string line(text);
+    std::ranges::replace_if(
+        line, [](unsigned char c) { return c < ' '; }, ' ');
+    return line;
 }
 
 } // namespace talus

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/text/nearest_name.hpp"
+#include "io/text/sentence.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace talus;
 
-TEST_CASE("the nearest name is the one with the fewest changed letters", "[nearest_name]")
+TEST_CASE("the nearest name is the one with the fewest changed letters", "[sentence]")
 {
     const std::vector<std::string_view> names = {"friction", "restitution", "rolling_friction", "stiffness"};
     CHECK(nearest_name("frictoin", names) == "friction");
@@ -14,7 +14,7 @@ TEST_CASE("the nearest name is the one with the fewest changed letters", "[neare
     CHECK(nearest_name("stifness", names) == "stiffness");
 }
 
-TEST_CASE("a word unlike all names has no nearest one", "[nearest_name]")
+TEST_CASE("a word unlike all names has no nearest one", "[sentence]")
 {
     CHECK(nearest_name("colour", {"friction", "density"}).empty());
     CHECK(nearest_name("x", {"to", "up"}).empty()); // every letter of either would change
@@ -22,7 +22,7 @@ TEST_CASE("a word unlike all names has no nearest one", "[nearest_name]")
     CHECK(did_you_mean("colour", {"friction"}).empty());
 }
 
-TEST_CASE("names are enumerated as a sentence does", "[nearest_name]")
+TEST_CASE("names are enumerated as a sentence does", "[sentence]")
 {
     CHECK(enumerate_names({}, "or").empty());
     CHECK(enumerate_names({"box"}, "or") == "'box'");

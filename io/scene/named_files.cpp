@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/scene/named_files.hpp"
+
+#include "io/scene/sieve_file.hpp"
+#include "io/scene/sphere_file.hpp"
+#include "io/scene/stl.hpp"
+#include "io/text/field_kind.hpp"
+#include "io/text/input_error.hpp"
+#include "io/text/input_file.hpp"
+
+#include <fmt/format.h>
+
+namespace talus
+{
+
+namespace
+{
+
+/// What `read` makes of the file that a key names. Its path, relative to the scene's folder, becomes absolute, so that
+/// the resolved scene can be read from any folder.
+/// @param owner in the sentence of an error, which begins with the place of the key: "wall 'gate': "
+auto read_named_file(
+    const SceneFile& file, const std::string& key, std::string& path, auto&& read, const std::string& owner = "")
+{
+    path = (std::filesystem::absolute(file.path).parent_path() / path).lexically_normal().string();
+    try {
+        return read(path);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}{}", file.place_of(key), owner, error.what()));
+    }
+}
+
+/// Reads the mesh of a wall, and brings it to metres and into place.
+void read_mesh(const SceneFile& file, const std::string& key, scene::WallTable& wall)
+{
+    TriangleSoup soup =
+        read_named_file(file, key + ".mesh", wall.mesh, read_stl, fmt::format("wall '{}': ", wall.name));
+    for (Vec3& vertex : soup.vertices) vertex = wall.scale * vertex + wall.translate;
+    wall.vertices = std::move(soup.vertices);
+    wall.triangles = std::move(soup.triangles);
+}
+
+/// Reads the spheres of a fill, and brings them to metres and into place.
+void read_fill(const SceneFile& file, const std::string& key, scene::FillTable& fill)
+{
+    fill.spheres = read_named_file(file, key + ".file", fill.file, read_spheres);
+    for (Vec3& position : fill.spheres.positions) position = fill.scale * position + fill.translate;
+    for (double& radius : fill.spheres.radii) radius *= fill.scale;
+    for (Vec3& velocity : fill.spheres.velocities) velocity *= fill.scale;
+}
+
+/// Reads the sieve analysis of diameters that have one.
+void read_analysis(const SceneFile& file, const std::string& key, scene::DiameterTable& diameter)
+{
+    if (diameter.distribution != "sieve") return;
+    SieveAnalysis analysis = read_named_file(file, key + ".file", diameter.file, read_sieves);
+    diameter.sieve_sizes = std::move(analysis.sizes);
+    diameter.sieve_passing = std::move(analysis.passing);
+}
+
+/// The sieve analyses of a fill or a pour.
+void read_analyses(const SceneFile& file, const std::string& key, auto& table)
+{
+    read_analysis(file, key + ".diameter", table.diameter);
+    for (std::size_t k = 0; k < table.species.size(); ++k)
+        read_analysis(file, fmt::format("{}.species[{}].diameter", key, k), table.species[k].diameter);
+}
+
+using Files = std::vector<std::pair<std::string, std::uint32_t>>;
+
+void add_files(Files&, std::string_view, const auto&) {}
+
+void add_files(Files& files, std::string_view key, const std::string& value)
+{
+    if ((key == "mesh" || key == "file") && !value.empty())
+        files.emplace_back(value, checksum(read_bytes(value, "a file")));
+}
+
+template <Table Described> void add_files(Files& files, std::string_view, const Described& table);
+
+template <Table Described> void add_files(Files& files, std::string_view key, const std::vector<Described>& list)
+{
+    for (const Described& element : list) add_files(files, key, element);
+}
+
+template <Table Described> void add_files(Files& files, std::string_view, const Described& table)
+{
+    for_each_own_key(
+        table, [&](std::string_view name, const auto& field, std::string_view) { add_files(files, name, field); });
+}
+
+} // namespace
+
+void read_named_files(SceneFile& file)
+{
+    scene::Scene& scene = file.scene;
+    for (std::size_t i = 0; i < scene.wall.size(); ++i)
+        if (scene.wall[i].shape == "mesh" && !scene.wall[i].mesh.empty())
+            read_mesh(file, fmt::format("wall[{}]", i), scene.wall[i]);
+    for (std::size_t i = 0; i < scene.fill.size(); ++i) {
+        const std::string key = fmt::format("fill[{}]", i);
+        read_analyses(file, key, scene.fill[i]);
+        if (scene.fill[i].arrangement == "file") read_fill(file, key, scene.fill[i]);
+    }
+    for (std::size_t i = 0; i < scene.pour.size(); ++i) read_analyses(file, fmt::format("pour[{}]", i), scene.pour[i]);
+}
+
+Files named_files(const scene::Scene& scene)
+{
+    Files files;
+    add_files(files, "", scene);
+    return files;
+}
+
+} // namespace talus
