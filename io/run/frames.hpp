@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/supply/escape.hpp"
+#include "core/supply/removal.hpp"
 #include "scenarios/simulation.hpp"
 
 #include <filesystem>
