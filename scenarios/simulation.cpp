@@ -2,7 +2,6 @@
 #include "scenarios/simulation.hpp"
 
 #include "core/candidates/neighbor_search.hpp"
-#include "core/step/saved_state.hpp"
 #include "core/step/sub_steps.hpp"
 #include "core/world/placed_wall.hpp"
 
@@ -26,11 +25,11 @@ void let_in_and_out(Simulation& simulation)
 
 void Simulation::persist(Archive& archive)
 {
+    bool rolling = model.physics.rolling; // decides which impulses are carried
+    archive(rolling);
+    if (rolling != model.physics.rolling) throw ArchiveError("it is of a scene with another rolling resistance");
     archive(state, contacts, pours, outflow, escaped);
-    if (archive.reading()) {
-        require_whole(state, contacts, model);
-        contacts.resize_contacts(model.physics);
-    }
+    if (archive.reading()) contacts.resize_contacts(model.physics);
     for (const auto& sensor : sensors) archive(*sensor);
 }
 

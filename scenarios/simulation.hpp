@@ -35,6 +35,7 @@ struct Simulation {
     std::string overlap_forecast;     ///< one line: the stiffness cap of `matched` and the overlap that it implies
 
     /// All that changes in a run; the rest follows from the scene.
+    /// @throws ArchiveError where what is put back is not whole, or of a scene with other kinds of impulses
     void persist(Archive& archive);
 };
 
