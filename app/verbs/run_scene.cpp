@@ -6,8 +6,8 @@
 #include "app/system/signals.hpp"
 #include "app/system/terminal.hpp"
 #include "app/verbs/check_scene.hpp"
-#include "app/verbs/relaxation.hpp"
 #include "app/verbs/run_end.hpp"
+#include "core/step/relaxation.hpp"
 #include "io/scene/scene_file.hpp"
 
 #include <omp.h>
@@ -33,10 +33,10 @@ void print_start(const OpenedScene& opened, const OverlapCheck& overlaps, Verbos
     say("threads: {}\noutput: {}\n", omp_get_max_threads(), folder.string());
 }
 
-void print_relaxation(const Relaxation& relaxation, const OverlapCheck& before, double d)
+void print_relaxation(int steps, const OverlapCheck& before, const OverlapCheck& left, double d)
 {
-    say("relaxed in {} steps: {} overlaps, the worst {:.2g} % d, became {}, the worst {:.2g} % d\n", relaxation.steps,
-        before.count, 100.0 * before.worst / d, relaxation.left.count, 100.0 * relaxation.left.worst / d);
+    say("relaxed in {} steps: {} overlaps, the worst {:.2g} % d, became {}, the worst {:.2g} % d\n", steps,
+        before.count, 100.0 * before.worst / d, left.count, 100.0 * left.worst / d);
 }
 
 void advise_to_relax(const OverlapCheck& overlaps, double d)
@@ -61,8 +61,8 @@ ExitCode run_scene(const CommandLine& line)
     const bool speaks = line.verbosity != Verbosity::quiet;
     if (speaks) print_start(opened, overlaps, line.verbosity, folder);
     if (line.relax) {
-        const Relaxation relaxation = relax_overlaps(opened.simulation, overlaps);
-        if (speaks) print_relaxation(relaxation, overlaps, d);
+        const int steps = relax_overlaps(opened.simulation.state, opened.simulation.model, overlaps.worst);
+        if (speaks) print_relaxation(steps, overlaps, check_overlaps(opened.simulation), d);
     } else if (speaks) {
         advise_to_relax(overlaps, d);
     }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/verbs/relaxation.hpp"
+#include "core/step/relaxation.hpp"
+
+#include "core/step/time_step.hpp"
 
 namespace talus
 {
 namespace
 {
 
-constexpr double good_overlap = 1e-6; ///< diameters
+constexpr double good_overlap = 1e-6; ///< mean diameters
 constexpr int most_steps = 2000;
 
 /// The model in which spheres are moved apart and do nothing else.
@@ -21,7 +23,7 @@ Model relaxing_model(const Model& model)
     return relaxing;
 }
 
-/// As it is at the start, but at rest; the number of the step keeps the storage order as it is.
+/// At the start, and at rest; the number of the step keeps the storage order as it is.
 void stop(State& state)
 {
     for (Motion& motion : state.motion) motion.velocity = motion.rim_velocity = Vec3::Zero();
@@ -31,21 +33,19 @@ void stop(State& state)
 
 } // namespace
 
-Relaxation relax_overlaps(Simulation& simulation, const OverlapCheck& overlaps)
+int relax_overlaps(State& state, const Model& model, double worst_overlap)
 {
-    Relaxation relaxation;
-    const Model model = relaxing_model(simulation.model);
-    State state = simulation.state;
+    const Model relaxing = relaxing_model(model);
+    State moved = state;
     ContactNetwork contacts;
-    double worst = overlaps.worst;
-    while (worst > good_overlap * model.mean_diameter && relaxation.steps < most_steps) {
-        stop(state);
-        worst = advance(state, contacts, model).worst_overlap; // before the step, which makes it smaller
-        ++relaxation.steps;
+    int steps = 0;
+    while (worst_overlap > good_overlap * model.mean_diameter && steps < most_steps) {
+        stop(moved);
+        worst_overlap = advance(moved, contacts, relaxing).worst_overlap; // before the step, which makes it smaller
+        ++steps;
     }
-    simulation.state.position = state.position;
-    relaxation.left = check_overlaps(simulation);
-    return relaxation;
+    state.position = moved.position;
+    return steps;
 }
 
 } // namespace talus
