@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/loop/run_loop.hpp"
 
+#include "app/system/last_words.hpp"
 #include "app/system/signals.hpp"
 #include "app/system/terminal.hpp"
-#include "app/system/whereabouts.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/lost_spheres.hpp"
 #include "io/text/input_error.hpp"
@@ -53,7 +53,6 @@ RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbo
       contact_schedule_(opened.scene.output.contact_interval), checkpoint_schedule_(opened.scene.checkpoint.interval),
       frames_(folder), watch_(opened.simulation.model), progress_(verbosity, opened.simulation)
 {
-    note_run(folder);
     if (checkpoint)
         go_on(*checkpoint);
     else
@@ -62,6 +61,7 @@ RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbo
 
 void RunLoop::begin()
 {
+    note_checkpoint(folder_, std::nullopt);
     metrics_.emplace(folder_ / "metrics.csv", metrics_columns(simulation_));
     write_walls();
     particle_schedule_.due(simulation_.state.time);
@@ -83,7 +83,7 @@ void RunLoop::go_on(Archive& checkpoint)
     frames_.cut_back();
     write_lost(folder_, simulation_.escaped);
     standing_ = standing_walls(simulation_.model, time);
-    note_checkpoint(time);
+    note_checkpoint(folder_, time);
     for (Schedule* schedule : {&particle_schedule_, &checkpoint_schedule_}) schedule->due(time);
     if (simulation_.state.steps == 0) return; // the first contacts and metrics are those of the first step
     for (Schedule* schedule : {&metrics_schedule_, &contact_schedule_}) schedule->due(time);
@@ -129,7 +129,6 @@ void RunLoop::clear_away(const StepReport& report)
 
 StepReport RunLoop::make_step()
 {
-    note_step(simulation_.state.steps, simulation_.state.time);
     clock_.begin(RunPhase::pour_and_outlet);
     StepReport report = step(simulation_, [this](Phase phase) { clock_.begin(phase); });
     clock_.begin(RunPhase::output);
@@ -183,7 +182,7 @@ void RunLoop::write_checkpoint()
     archive(origin_);
     persist(archive, metrics_size);
     talus::write_checkpoint(folder_, TALUS_VERSION, archive.bytes());
-    note_checkpoint(simulation_.state.time);
+    note_checkpoint(folder_, simulation_.state.time);
     checkpoint_wall_ = clock_.wall();
     if (verbosity_ != Verbosity::verbose) return;
     progress_.finish();
