@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/command_line.hpp"
+#include "app/system/terminal.hpp"
 #include "core/step/time_step.hpp"
 #include "scenarios/simulation.hpp"
 

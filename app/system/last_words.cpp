@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/system/last_words.hpp"
 
-#include "app/system/exit_code.hpp"
-
-#include <fmt/format.h>
+#include "app/system/terminal.hpp"
 
 #include <array>
 #include <atomic>
