@@ -5,6 +5,8 @@
 #include "core/step/sub_steps.hpp"
 #include "core/world/placed_wall.hpp"
 
+#include <algorithm>
+
 namespace talus
 {
 namespace
@@ -33,6 +35,14 @@ void Simulation::persist(Archive& archive)
     for (const auto& sensor : sensors) archive(*sensor);
 }
 
+bool IncidentPolicy::stops(const StepReport& report) const
+{
+    return std::ranges::any_of(report.incidents, [&](const Incident& incident) {
+        const bool may_be_removed = incident.kind == Incident::Kind::escaped && !incident.of_piston();
+        return !(may_be_removed && remove_escaped) && !(incident.kind == Incident::Kind::pressed && go_on_pressed);
+    });
+}
+
 StepReport step(Simulation& simulation, const PhaseObserver& observer)
 {
     let_in_and_out(simulation);
@@ -43,6 +53,20 @@ BegunStep begin_step(Simulation& simulation)
 {
     let_in_and_out(simulation);
     return begin_step(simulation.state, simulation.contacts, simulation.model);
+}
+
+StepReport run_until(Simulation& simulation, double time, const StepHooks& hooks)
+{
+    StepReport report;
+    while (!has_reached(simulation, time) && !simulation.incident_policy.stops(report)) {
+        if (!report.incidents.empty())
+            remove_escaped(
+                simulation.escaped, simulation.state, simulation.contacts, simulation.model, report.incidents);
+        if (hooks.before_step && !hooks.before_step()) break;
+        report = step(simulation, hooks.on_phase);
+        if (hooks.after_step) hooks.after_step(report);
+    }
+    return report;
 }
 
 bool has_reached(const Simulation& simulation, double time, std::int64_t steps_ahead)
