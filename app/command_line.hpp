@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/loop/open_scene.hpp"
+#include "app/system/terminal.hpp"
 #include "core/multibody/iteration.hpp"
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace talus
 {
-
-/// Arguments that make no sense; what() is one sentence.
-struct UsageError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-enum class Verbosity { quiet, normal, verbose };
 
 /// The note's algorithms: 2.1, 2.2, 3.1.
 enum class Algorithm { residual_update, local_residual, projected };
@@ -32,16 +26,12 @@ struct SolveRequest {
     int guess = 0;                 ///< of the file to start from, counted from 1; 0: start from zero
 };
 
-/// What the user asked for.
-struct CommandLine {
+/// What the user asked for, first of all of which scene.
+struct CommandLine : SceneRequest {
     enum class Verb { run, resume, check, keys, list, dump, solve, study };
     Verb verb = Verb::list;
-    std::string scene;                  ///< a path, or a name in scenarios/
-    std::string table;                  ///< of keys: the one to show; empty: all
-    std::vector<std::string> overrides; ///< key=value
-    std::optional<std::int64_t> seed;
-    std::optional<double> until; ///< [s]
-    double at = 0.0;             ///< of dump [s]
+    std::string table; ///< of keys: the one to show; empty: all
+    double at = 0.0;   ///< of dump [s]
     SolveRequest solve;
     std::filesystem::path study; ///< file of what to try; empty: the usual
     std::filesystem::path out;   ///< of run: empty for out/<scene name>; of resume: the run's folder; else a file

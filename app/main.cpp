@@ -2,25 +2,36 @@
 #include "app/command_line.hpp"
 #include "app/loop/open_scene.hpp"
 #include "app/study/study.hpp"
-#include "app/system/crashes.hpp"
-#include "app/system/exit_code.hpp"
-#include "app/system/short_spins.hpp"
+#include "app/system/last_words.hpp"
 #include "app/system/terminal.hpp"
-#include "app/system/whereabouts.hpp"
 #include "app/verbs/check_scene.hpp"
 #include "app/verbs/dump_step.hpp"
-#include "app/verbs/resume_run.hpp"
 #include "app/verbs/run_scene.hpp"
 #include "app/verbs/solve_problem.hpp"
 #include "io/scene/key_table.hpp"
 #include "io/text/input_error.hpp"
 
+#include <cstdlib>
 #include <new>
+
+#include <unistd.h>
 
 namespace talus
 {
 namespace
 {
+
+/// Starts the program anew, once, with GOMP_SPINCOUNT set, unless the user has set that or OMP_WAIT_POLICY.
+///
+/// A thread of GCC's OpenMP that has nothing to do spins for a millisecond and more before it sleeps, on a processor
+/// that others may need: on two cores that had other work, a run on two threads took more than twice as long and
+/// ten times the processor time. The variable is read when the library is loaded, before main.
+void restart_with_short_spins(char** argv)
+{
+    if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
+    setenv("GOMP_SPINCOUNT", "2000", 1);
+    execv("/proc/self/exe", argv); // returns only if it cannot; then the run goes on as it is
+}
 
 ExitCode execute(const CommandLine& line)
 {
@@ -55,14 +66,6 @@ ExitCode fail(ExitCode code, const std::string& sentence)
     return code;
 }
 
-std::string with_whereabouts(const std::string& sentence)
-{
-    ShortText text;
-    text << sentence;
-    add_whereabouts(text);
-    return std::string(text.view());
-}
-
 ExitCode execute_guarded(int argc, const char* const* argv)
 {
     try {
@@ -73,12 +76,12 @@ ExitCode execute_guarded(int argc, const char* const* argv)
     } catch (const InputError& error) {
         return fail(ExitCode::input, error.what());
     } catch (const OutputError& error) {
-        return fail(ExitCode::output, with_whereabouts(error.what()));
+        return fail(ExitCode::output, fmt::format("{}{}", error.what(), way_on()));
     } catch (const std::bad_alloc&) {
-        return fail(ExitCode::internal, with_whereabouts("talus: there is not enough memory"));
+        return fail(ExitCode::internal, fmt::format("talus: there is not enough memory{}", way_on()));
     } catch (const std::exception& error) {
         return fail(ExitCode::internal,
-            with_whereabouts(fmt::format("talus: this is a fault of Talus, please report it: {}", error.what())));
+            fmt::format("talus: this is a fault of Talus, please report it: {}{}", error.what(), way_on()));
     }
 }
 

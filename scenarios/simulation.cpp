@@ -5,6 +5,8 @@
 #include "core/step/time_step.hpp"
 #include "core/world/placed_wall.hpp"
 
+#include <algorithm>
+
 namespace talus
 {
 namespace
@@ -25,8 +27,19 @@ void let_in_and_out(Simulation& simulation)
 
 void Simulation::persist(Archive& archive)
 {
+    bool rolling = model.physics.rolling; // decides which impulses are carried
+    archive(rolling);
+    if (rolling != model.physics.rolling) throw ArchiveError("it is of a scene with another rolling resistance");
     archive(state, network, pours, outflow, escaped);
     for (const auto& sensor : sensors) archive(*sensor);
+}
+
+bool IncidentPolicy::stops(const StepReport& report) const
+{
+    return std::ranges::any_of(report.bodies.incidents, [&](const Incident& incident) {
+        const bool may_be_removed = incident.kind == Incident::Kind::escaped && !incident.of_piston();
+        return !(may_be_removed && remove_escaped) && !(incident.kind == Incident::Kind::pressed && go_on_pressed);
+    });
 }
 
 StepReport advance(Simulation& simulation, const PhaseObserver& observer)
@@ -39,6 +52,20 @@ PreparedStep prepare_step(Simulation& simulation)
 {
     let_in_and_out(simulation);
     return prepare_step(simulation.state, simulation.network, simulation.model, {simulation.model.time_step});
+}
+
+StepReport run_until(Simulation& simulation, double time, const StepHooks& hooks)
+{
+    StepReport report;
+    while (!has_reached(simulation, time) && !simulation.incident_policy.stops(report)) {
+        if (!report.bodies.incidents.empty())
+            remove_escaped(
+                simulation.escaped, simulation.state, simulation.network, simulation.model, report.bodies.incidents);
+        if (hooks.before_step && !hooks.before_step()) break;
+        report = advance(simulation, hooks.on_phase);
+        if (hooks.after_step) hooks.after_step(report);
+    }
+    return report;
 }
 
 bool has_reached(const Simulation& simulation, double time, std::int64_t steps_ahead)

@@ -10,12 +10,23 @@
 #include "core/world/state.hpp"
 #include "scenarios/output_choice.hpp"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace talus
 {
+
+/// What is done about the incidents of a step (world.on_escape, solver.on_no_solution); by default each of them ends
+/// the run.
+struct IncidentPolicy {
+    bool remove_escaped = false; ///< a sphere that escaped is taken out of the world, and the run goes on
+    bool go_on_pressed = false;  ///< bodies that are pressed together without a solution yield, and the run goes on
+
+    /// Whether an incident of this step ends the run.
+    bool stops(const StepReport& report) const;
+};
 
 /// A simulation ready to run: the constant model, the state, and what feeds, empties and watches it.
 struct Simulation {
@@ -24,6 +35,7 @@ struct Simulation {
     ContactNetwork network;
     std::vector<Pour> pours;
     Outflow outflow;
+    IncidentPolicy incident_policy;
     std::vector<EscapedSphere> escaped; ///< and taken out, where the scene says so
     std::vector<std::unique_ptr<Sensor>> sensors;
     OutputChoice output;
@@ -34,6 +46,7 @@ struct Simulation {
     std::string overlap_forecast;     ///< one line: the stiffness cap of `matched` and the overlap that it implies
 
     /// All that changes in a run; the rest follows from the scene.
+    /// @throws ArchiveError where what is put back is not whole, or of a scene with other kinds of impulses
     void persist(Archive& archive);
 };
 
@@ -43,6 +56,19 @@ StepReport advance(Simulation& simulation, const PhaseObserver& observer = {});
 
 /// The beginning of a step: spheres come and go, and `network` has the problem that the rest of it would solve.
 PreparedStep prepare_step(Simulation& simulation);
+
+/// What is done between the steps of `run_until`; any of it may be left out.
+struct StepHooks {
+    std::function<bool()> before_step = {};                 ///< whether to make the step; else the run stops there
+    std::function<void(const StepReport&)> after_step = {}; ///< of every step, the last one included
+    PhaseObserver on_phase = {};
+};
+
+/// Makes steps until the simulation has reached this time, or up to the first step with an incident that stops it. What
+/// escaped and does not stop it is taken out before the next step.
+/// @param time [s]
+/// @return the report of the last step; where none was made, an empty one
+StepReport run_until(Simulation& simulation, double time, const StepHooks& hooks);
 
 /// Whether the simulation is at this time, or past it, up to a thousandth of a step, for which only rounding is to
 /// blame.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/loop/open_scene.hpp"
 
+#include "app/system/terminal.hpp"
 #include "io/text/input_error.hpp"
 #include "scenarios/build/build_scene.hpp"
 
@@ -26,11 +27,11 @@ fs::path scene_path(const std::string& scene)
         fmt::format("there is no scene '{}': it is neither a file nor one of {}", scene, fmt::join(names, ", ")));
 }
 
-SceneFile read_scene_as_asked(const fs::path& path, const CommandLine& line)
+SceneFile read_scene_as_asked(const fs::path& path, const SceneRequest& request)
 {
-    SceneFile file = read_scene(path, line.overrides);
-    if (line.seed) file.scene.seed = *line.seed;
-    if (line.until) file.scene.time.duration = *line.until;
+    SceneFile file = read_scene(path, request.overrides);
+    if (request.seed) file.scene.seed = *request.seed;
+    if (request.until) file.scene.time.duration = *request.until;
     return file;
 }
 
@@ -46,10 +47,10 @@ OpenedScene build_opened(SceneFile file, std::string name)
     }
 }
 
-OpenedScene open_scene(const CommandLine& line)
+OpenedScene open_scene(const SceneRequest& request)
 {
-    const fs::path path = scene_path(line.scene);
-    return build_opened(read_scene_as_asked(path, line), path.stem());
+    const fs::path path = scene_path(request.scene);
+    return build_opened(read_scene_as_asked(path, request), path.stem());
 }
 
 std::vector<fs::path> supplied_scenes()

@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/command_line.hpp"
 #include "io/scene/scene_file.hpp"
 #include "scenarios/simulation.hpp"
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace talus
 {
+
+/// A scene as the user asks for it.
+struct SceneRequest {
+    std::string scene;                  ///< a path, or a name in scenarios/
+    std::vector<std::string> overrides; ///< key=value
+    std::optional<std::int64_t> seed;
+    std::optional<double> until; ///< [s]
+};
 
 /// A scene that was read and built, ready to run.
 struct OpenedScene {
@@ -19,17 +28,17 @@ struct OpenedScene {
     Simulation simulation;
 };
 
-/// The file of a scene that is named as on the command line.
+/// The file of a scene that is given as a path or a name in scenarios/.
 /// @throws UsageError where there is no such scene
 std::filesystem::path scene_path(const std::string& scene);
 
-/// Finds, reads and builds the scene that the command line names, with what the command line changes in it.
+/// Finds, reads and builds a scene, with what the request changes in it.
 /// @throws InputError with file, line and column; UsageError where there is no such scene
-OpenedScene open_scene(const CommandLine& line);
+OpenedScene open_scene(const SceneRequest& request);
 
-/// Reads a scene file with what the command line changes in it.
+/// Reads a scene file with what the request changes in it.
 /// @throws InputError with file, line and column
-SceneFile read_scene_as_asked(const std::filesystem::path& path, const CommandLine& line);
+SceneFile read_scene_as_asked(const std::filesystem::path& path, const SceneRequest& request);
 
 /// Builds a scene that was read.
 /// @throws InputError with file, line and column

@@ -1,23 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/command_line.hpp"
+#include "app/system/terminal.hpp"
 #include "core/step/time_step.hpp"
 #include "scenarios/simulation.hpp"
 
+#include <cstdint>
 #include <string>
 
 namespace talus
 {
 
-/// Tells on standard error how far a run is: on a terminal a line that is written over, elsewhere a line now and then.
+/// Watches whether the time step is small enough for what happens, and says once which would be.
+class StepWatch
+{
+public:
+    /// Takes in the report of a step that the simulation has just made. @returns a warning, or nothing
+    std::string warning_after(const StepReport& report, const Simulation& simulation);
+
+private:
+    int steps_with_long_moves_ = 0;
+    double fastest_ = 0.0; ///< in those [m/s]
+    int deep_steps_ = 0;   ///< in a row with deep overlap
+    double deepest_ = 0.0; ///< in those [m]
+    bool move_told_ = false, overlap_told_ = false;
+
+    std::string warning_of_moves(const StepReport& report, const Model& model);
+    std::string warning_of_overlap(const StepReport& report, const Simulation& simulation);
+};
+
+/// Tells on standard error how far a run is: on a terminal a line that is written over, elsewhere a line now and then;
+/// and what its steps are to be warned of.
 class Progress
 {
 public:
     /// @param simulation as it begins, or as it is resumed
     Progress(Verbosity verbosity, const Simulation& simulation);
 
-    /// Shows the step just made if it is time for that.
+    /// Warns of the step just made where there is need, and shows it if it is time for that.
     /// @param wall time since the run began or was resumed [s]
     void update(const Simulation& simulation, const StepReport& report, double wall);
 
@@ -36,8 +56,9 @@ private:
     std::int64_t first_step_;
     double interval_;          ///< between lines, in wall time [s]
     double next_;              ///< wall time of the next line [s]
-    double next_logged_ = 0.0; ///< likewise, in a log file beside a terminal
+    double next_logged_ = 0.0; ///< wall time of the next line in a log file beside a terminal [s]
     bool line_open_ = false;
+    StepWatch watch_;
 };
 
 } // namespace talus

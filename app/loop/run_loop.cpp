@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/loop/run_loop.hpp"
 
+#include "app/system/last_words.hpp"
 #include "app/system/signals.hpp"
 #include "app/system/terminal.hpp"
-#include "app/system/whereabouts.hpp"
 #include "io/run/checkpoint.hpp"
+#include "io/run/lost_spheres.hpp"
 #include "io/text/input_error.hpp"
 #include "scenarios/build/checks.hpp"
 
@@ -47,12 +48,11 @@ RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbo
 
 RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive* checkpoint)
     : simulation_(opened.simulation), folder_(folder), origin_(origin_of(opened.name, opened.scene)),
-      policy_(opened.scene), wall_interval_(opened.scene.checkpoint.wall_interval), verbosity_(verbosity),
+      wall_interval_(opened.scene.checkpoint.wall_interval), verbosity_(verbosity),
       metrics_schedule_(opened.scene.time.metrics_interval), particle_schedule_(opened.scene.time.frame_interval),
       contact_schedule_(opened.scene.output.contact_interval), checkpoint_schedule_(opened.scene.checkpoint.interval),
-      frames_(folder), watch_(opened.simulation.model), progress_(verbosity, opened.simulation)
+      frames_(folder), progress_(verbosity, opened.simulation)
 {
-    note_run(folder);
     if (checkpoint)
         go_on(*checkpoint);
     else
@@ -61,6 +61,7 @@ RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbo
 
 void RunLoop::begin()
 {
+    note_checkpoint(folder_, std::nullopt);
     metrics_.emplace(folder_ / "metrics.csv", metrics_columns(simulation_));
     write_walls();
     particle_schedule_.due(simulation_.state.time);
@@ -74,15 +75,16 @@ void RunLoop::go_on(Archive& checkpoint)
     persist(checkpoint, metrics_size);
     if (!checkpoint.at_end()) throw ArchiveError("the saved state is longer than what this scene needs");
     const double time = simulation_.state.time;
-    if (is_over())
+    if (has_reached(simulation_, simulation_.duration))
         throw InputError(fmt::format("{}: the run is at t = {:.6g} s already, and cannot end at {:.6g} s",
             folder_.string(), time, simulation_.duration));
     metrics_.emplace(folder_ / "metrics.csv", metrics_columns(simulation_), metrics_size);
     progress_ = Progress(verbosity_, simulation_);
     frames_.cut_back();
+    lost_ = simulation_.escaped.size();
     write_lost(folder_, simulation_.escaped);
     standing_ = standing_walls(simulation_.model, time);
-    note_checkpoint(time);
+    note_checkpoint(folder_, time);
     for (Schedule* schedule : {&particle_schedule_, &checkpoint_schedule_}) schedule->due(time);
     if (simulation_.state.steps == 0) return; // the first contacts and metrics are those of the first step
     for (Schedule* schedule : {&metrics_schedule_, &contact_schedule_}) schedule->due(time);
@@ -91,60 +93,43 @@ void RunLoop::go_on(Archive& checkpoint)
 RunEnd RunLoop::run()
 {
     RunEnd end;
-    StepReport report;
-    while (!is_over() && !policy_.stops(report) && end.signal == 0) {
-        clear_away(report);
+    StepHooks hooks;
+    hooks.before_step = [&] {
         end.signal = stop_signal();
-        if (end.signal != 0 || next_step_is_last() || checkpoint_is_due()) write_checkpoint();
-        if (end.signal != 0) break;
-        report = make_step();
-        write_what_is_due(report);
-        tell(report);
-    }
-    if (end.signal == 0) write_the_rest(report);
-    if (policy_.stops(report)) end.incidents = report.bodies.incidents;
+        before_step(end.signal != 0 || has_reached(simulation_, simulation_.duration, 1));
+        return end.signal == 0;
+    };
+    hooks.after_step = [this](const StepReport& report) { after_step(report); };
+    hooks.on_phase = [this](Phase phase) { clock_.begin(phase); };
+    const StepReport last = run_until(simulation_, simulation_.duration, hooks);
+
+    if (end.signal == 0) write_the_rest(last);
+    if (simulation_.incident_policy.stops(last)) end.incidents = last.incidents;
     progress_.finish();
     clock_.begin(RunPhase::output); // so that the phases add up to the whole
     return end;
 }
 
-bool RunLoop::is_over() const
+/// @param is_last whether the step is the last one, or is not to be made at all
+void RunLoop::before_step(bool is_last)
 {
-    return has_reached(simulation_, simulation_.duration);
-}
-
-bool RunLoop::next_step_is_last() const
-{
-    return has_reached(simulation_, simulation_.duration, 1);
-}
-
-/// What escaped, and need not end the run.
-void RunLoop::clear_away(const StepReport& report)
-{
-    if (report.bodies.incidents.empty()) return;
-    take_out_escaped(simulation_, report);
-    write_lost(folder_, simulation_.escaped);
-}
-
-StepReport RunLoop::make_step()
-{
-    note_step(simulation_.state.steps, simulation_.state.time);
+    if (simulation_.escaped.size() > lost_) {
+        write_lost(folder_, simulation_.escaped);
+        lost_ = simulation_.escaped.size();
+    }
+    if (is_last || checkpoint_is_due()) write_checkpoint();
     clock_.begin(RunPhase::pour_and_outlet);
-    StepReport report = advance(simulation_, [this](Phase phase) { clock_.begin(phase); });
+}
+
+void RunLoop::after_step(const StepReport& report)
+{
     clock_.begin(RunPhase::output);
     statistics_.add(report, simulation_);
-    if (!policy_.stops(report))
+    if (!simulation_.incident_policy.stops(report)) {
         for (const auto& sensor : simulation_.sensors) sensor->watch(snapshot(simulation_, report));
-    return report;
-}
-
-void RunLoop::tell(const StepReport& report)
-{
-    if (const std::string warning = watch_.warning_after(report, &simulation_); !warning.empty()) {
-        progress_.finish();
-        if (verbosity_ != Verbosity::quiet) warn("t = {:.6g} s: {}\n", simulation_.state.time, warning);
+        write_what_is_due(report); // the end of the run writes it all, but asks no sensor about a broken state
+        tell_incidents(report);
     }
-    if (!policy_.stops(report)) tell_incidents(report);
     progress_.update(simulation_, report, clock_.wall());
 }
 
@@ -182,7 +167,7 @@ void RunLoop::write_checkpoint()
     archive(origin_);
     persist(archive, metrics_size);
     talus::write_checkpoint(folder_, TALUS_VERSION, archive.bytes());
-    note_checkpoint(simulation_.state.time);
+    note_checkpoint(folder_, simulation_.state.time);
     checkpoint_wall_ = clock_.wall();
     if (verbosity_ != Verbosity::verbose) return;
     progress_.finish();
@@ -198,7 +183,6 @@ void RunLoop::persist(Archive& archive, std::uint64_t& metrics_size)
 
 void RunLoop::write_what_is_due(const StepReport& report)
 {
-    if (policy_.stops(report)) return; // the end of the run writes it all, but asks no sensor about a broken state
     const double time = simulation_.state.time;
     if (standing_walls(simulation_.model, time) != standing_) write_walls();
     if (metrics_schedule_.due(time)) {
@@ -217,9 +201,9 @@ void RunLoop::write_the_rest(const StepReport& report)
     const std::int64_t steps = simulation_.state.steps;
     if (last_particles_ != steps) write_particles();
     if (steps == 0) return; // contacts and metrics speak of a step
-    if (last_contacts_ != steps && !policy_.stops(report)) write_contacts();
+    if (last_contacts_ != steps && !simulation_.incident_policy.stops(report)) write_contacts();
     if (last_metrics_ != steps) {
-        if (!policy_.stops(report)) sample_sensors(report);
+        if (!simulation_.incident_policy.stops(report)) sample_sensors(report);
         write_metrics(report);
     }
     write_tables();

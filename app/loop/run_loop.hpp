@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/loop/incident_policy.hpp"
 #include "app/loop/open_scene.hpp"
 #include "app/loop/progress.hpp"
 #include "app/loop/run_origin.hpp"
 #include "app/loop/run_statistics.hpp"
 #include "app/loop/schedule.hpp"
-#include "app/loop/step_watch.hpp"
 #include "app/system/phase_clock.hpp"
 #include "io/run/frames.hpp"
 #include "io/run/run_files.hpp"
@@ -58,13 +56,10 @@ private:
     void begin();
     void go_on(Archive& checkpoint);
 
-    bool is_over() const;
-    bool next_step_is_last() const;
-    void clear_away(const StepReport& report);
-    StepReport make_step();
+    void before_step(bool is_last);
+    void after_step(const StepReport& report);
     void write_what_is_due(const StepReport& report);
     void write_the_rest(const StepReport& report);
-    void tell(const StepReport& report);
     void tell_incidents(const StepReport& report);
 
     bool checkpoint_is_due();
@@ -81,7 +76,6 @@ private:
     Simulation& simulation_;
     std::filesystem::path folder_;
     RunOrigin origin_;
-    IncidentPolicy policy_;
     double wall_interval_; ///< between checkpoints [s]
     Verbosity verbosity_;
     Schedule metrics_schedule_, particle_schedule_, contact_schedule_, checkpoint_schedule_;
@@ -90,7 +84,7 @@ private:
     std::vector<bool> standing_;                                                ///< walls in the last wall frame
     FrameWriter frames_;
     std::optional<MetricsFile> metrics_; ///< there as soon as the loop is made
-    StepWatch watch_;
+    std::size_t lost_ = 0;               ///< spheres in lost.vtp
     std::size_t presses_told_ = 0;
     RunStatistics statistics_;
     PhaseClock clock_;

@@ -1,13 +1,62 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/loop/energy_balance.hpp"
-#include "app/loop/log_histogram.hpp"
+#include "core/base/archive.hpp"
 #include "io/run/summary.hpp"
 #include "scenarios/simulation.hpp"
 
+#include <array>
+#include <cstdint>
+#include <optional>
+
 namespace talus
 {
+
+/// How often a quantity from 0 up was how large: mean, percentiles and worst of any number of values in a fixed size.
+class LogHistogram
+{
+public:
+    void add(double value);
+
+    double mean() const;
+    double worst() const { return worst_; }
+
+    /// What this share of the values does not exceed, at most 2.4 % too large; 0 where there are none.
+    double percentile(double share) const;
+
+    void persist(Archive& archive) { archive(counts_, count_, sum_, worst_); }
+
+private:
+    static constexpr int bins_per_decade = 100;
+    static constexpr int least_exponent = -9;  ///< smaller values share the first bin
+    static constexpr int largest_exponent = 3; ///< larger ones the last
+
+    std::array<std::int64_t, bins_per_decade*(largest_exponent - least_exponent) + 1> counts_ = {};
+    std::int64_t count_ = 0;
+    double sum_ = 0.0, worst_ = 0.0;
+};
+
+/// Falls and rises of the total energy from step to step: kinetic + potential + stored in the contacts, less what
+/// moving walls, loads on pistons, and gravity along periodic axes, put in. Only steps with the same spheres are
+/// compared; what pours and outlets carry in and out is not a change of theirs.
+class EnergyBalance
+{
+public:
+    /// @param same_spheres whether those in the step are those of the step before
+    void add(const StepReport& report, bool same_spheres);
+
+    double lost() const { return lost_; }     ///< sum of the falls [J]
+    double gained() const { return gained_; } ///< sum of the rises [J]
+    double put_in() const { return put_in_; } ///< work of moving walls, loads, and gravity along periodic axes [J]
+
+    void persist(Archive& archive) { archive(lost_, gained_, put_in_, work_, motion_energy_, total_energy_); }
+
+private:
+    double lost_ = 0.0, gained_ = 0.0, put_in_ = 0.0;
+    double work_ = 0.0;                   ///< put in by the last step
+    std::optional<double> motion_energy_; ///< kinetic + potential at the end of the last step
+    std::optional<double> total_energy_;  ///< at the end of the step before it
+};
 
 /// Gathers the reports of all steps into what the run says about its own error.
 class RunStatistics
@@ -25,21 +74,15 @@ public:
 
     void persist(Archive& archive)
     {
-        archive(residuals_, steps_at_cap_, overlap_sum_, overlap_count_, worst_overlap_, worst_overlap_time_,
-            long_moves_, split_steps_, most_sub_steps_, cone_violation_, contact_updates_, energy_, inserted_, left_);
+        archive(sums_, residuals_, energy_, overlap_sum_, overlap_count_, contact_updates_, inserted_, left_);
     }
 
 private:
+    ErrorSummary sums_; ///< counts and worst values; the rest is filled in when it is asked for
     LogHistogram residuals_;
-    std::int64_t steps_at_cap_ = 0;
-    double overlap_sum_ = 0.0, overlap_count_ = 0.0; ///< over all overlapping contacts of all steps
-    double worst_overlap_ = 0.0, worst_overlap_time_ = 0.0;
-    std::int64_t long_moves_ = 0;
-    std::int64_t split_steps_ = 0;
-    int most_sub_steps_ = 1;
-    double cone_violation_ = 0.0;
-    double contact_updates_ = 0.0;
     EnergyBalance energy_;
+    double overlap_sum_ = 0.0, overlap_count_ = 0.0; ///< over all overlapping contacts of all steps
+    double contact_updates_ = 0.0;
     std::int64_t inserted_ = 0, left_ = 0; ///< up to the last step, also by escape
     bool same_spheres_ = false;
 };

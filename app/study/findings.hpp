@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/loop/log_histogram.hpp"
 #include "app/loop/run_statistics.hpp"
 #include "app/loop/schedule.hpp"
 #include "core/sensors/force_profile.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/study/study_run.hpp"
 
-#include "app/loop/incident_policy.hpp"
 #include "app/loop/open_scene.hpp"
 #include "app/study/findings.hpp"
 #include "app/study/saved_state.hpp"
@@ -66,21 +65,22 @@ std::string told(const Simulation& simulation, const StepReport& report)
 /// Makes steps until a time, and tells each to `observe`. Returns what went wrong.
 /// @param cpu time of the steps, added to what it was [s]
 /// @param longest that it may become
-std::string run_until(double time, OpenedScene& opened, const std::function<void(const StepReport&)>& observe,
+std::string run_and_observe(double time, Simulation& simulation, const std::function<void(const StepReport&)>& observe,
     double& cpu, double longest = infinity)
 {
-    Simulation& simulation = opened.simulation;
-    const IncidentPolicy policy(opened.scene);
-    while (!has_reached(simulation, time)) {
-        const double before = cpu_time();
-        const StepReport report = advance(simulation);
+    double before = 0.0;
+    const auto begin = [&] {
+        before = cpu_time();
+        return cpu <= longest;
+    };
+    const auto end = [&](const StepReport& report) {
         cpu += cpu_time() - before;
-        if (policy.stops(report)) return told(simulation, report);
-        observe(report);
-        take_out_escaped(simulation, report);
-        if (cpu > longest)
-            return fmt::format("given up after {:.3g} s of CPU, at t = {:.4g} s", cpu, simulation.state.time);
-    }
+        if (!simulation.incident_policy.stops(report)) observe(report);
+    };
+    const StepReport last = run_until(simulation, time, {.before_step = begin, .after_step = end});
+    if (simulation.incident_policy.stops(last)) return told(simulation, last);
+    if (cpu > longest)
+        return fmt::format("given up after {:.3g} s of CPU, at t = {:.4g} s", cpu, simulation.state.time);
     return "";
 }
 
@@ -92,7 +92,7 @@ std::string fill_row(StudyRow& row, const StudyFrame& frame, OpenedScene& opened
     Simulation& simulation = opened.simulation;
     const double longest = frame.study.longest, from = frame.measured_from();
     double settling_cpu = 0.0, cpu = 0.0;
-    std::string failure = run_until(from, opened, ignore, settling_cpu, longest);
+    std::string failure = run_and_observe(from, simulation, ignore, settling_cpu, longest);
     if (!failure.empty()) return failure;
 
     Findings findings(simulation, opened.scene.time.metrics_interval);
@@ -101,7 +101,7 @@ std::string fill_row(StudyRow& row, const StudyFrame& frame, OpenedScene& opened
     MeanAndError velocity_error;
     for (int part = 1; part <= velocity_looks && failure.empty(); ++part) {
         velocity_error.add(velocity_error_of_next_step(simulation) / unit);
-        failure = run_until(from + part * (frame.end - from) / velocity_looks, opened, observe, cpu, longest);
+        failure = run_and_observe(from + part * (frame.end - from) / velocity_looks, simulation, observe, cpu, longest);
     }
     const double simulated = simulation.state.time - began;
     row.cpu = cpu / simulated;
@@ -119,7 +119,8 @@ std::string make_start(const StudyFrame& frame, std::int64_t seed)
     try {
         OpenedScene opened = open_setting(frame, {}, seed);
         double cpu = 0.0;
-        if (const std::string failure = run_until(frame.start, opened, ignore, cpu); !failure.empty()) return failure;
+        const std::string failure = run_and_observe(frame.start, opened.simulation, ignore, cpu);
+        if (!failure.empty()) return failure;
         save_state(opened.simulation, state_folder(frame, seed));
         return "";
     } catch (const std::exception& error) {

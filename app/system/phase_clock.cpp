@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/system/phase_clock.hpp"
 
-#include "app/system/whereabouts.hpp"
-
 #include <ctime>
 
 namespace talus
@@ -37,7 +35,6 @@ void PhaseClock::begin(RunPhase phase)
     ended.cpu += now.cpu - last_.cpu;
     last_ = now;
     current_ = phase;
-    note_phase(phase);
 }
 
 void PhaseClock::persist(Archive& archive)

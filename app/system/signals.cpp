@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/system/signals.hpp"
 
-#include "app/system/whereabouts.hpp"
+#include "app/system/last_words.hpp"
 
 #include <csignal>
 #include <unistd.h>
@@ -18,9 +18,7 @@ volatile std::sig_atomic_t checkpoint = 0;
 extern "C" void handle_stop(int signal)
 {
     if (stop != 0) {
-        ShortText text;
-        text << "stopped at once by a second signal";
-        say_last_words(text);
+        say_last_words({"stopped at once by a second signal"});
         _exit(128 + signal);
     }
     stop = signal;

@@ -3,7 +3,6 @@
 
 #include "app/loop/open_scene.hpp"
 #include "app/loop/progress.hpp"
-#include "app/loop/step_watch.hpp"
 #include "app/system/phase_clock.hpp"
 #include "app/system/terminal.hpp"
 #include "core/solver/step_problem.hpp"
@@ -18,24 +17,15 @@ namespace talus
 namespace
 {
 
-/// Steps to the first step that begins at or after this time. Returns the incidents of the last step: none where all
-/// went well.
-std::vector<Incident> step_until(Simulation& simulation, double time, Verbosity verbosity)
+/// Steps to the first step that begins at or after this time. Returns the report of the last one.
+StepReport step_until(Simulation& simulation, double time, Verbosity verbosity)
 {
-    PhaseClock clock;
+    const PhaseClock clock;
     Progress progress(verbosity, simulation);
-    StepWatch watch(simulation.model);
-    StepReport report;
-    while (!has_reached(simulation, time) && report.bodies.incidents.empty()) {
-        report = advance(simulation);
-        progress.update(simulation, report, clock.wall());
-        const std::string warning = watch.warning_after(report, &simulation);
-        if (warning.empty() || verbosity == Verbosity::quiet) continue;
-        progress.finish();
-        warn("t = {:.6g} s: {}\n", simulation.state.time, warning);
-    }
+    const auto show = [&](const StepReport& report) { progress.update(simulation, report, clock.wall()); };
+    const StepReport last = run_until(simulation, time, {.after_step = show});
     progress.finish();
-    return report.bodies.incidents;
+    return last;
 }
 
 } // namespace
@@ -47,9 +37,10 @@ ExitCode dump_step(const CommandLine& line)
     if (line.threads > 0) omp_set_num_threads(line.threads);
     Simulation& simulation = opened.simulation;
     simulation.duration = line.at; // as far as the progress line goes
-    for (const Incident& incident : step_until(simulation, line.at, line.verbosity)) {
+    const StepReport last = step_until(simulation, line.at, line.verbosity);
+    if (simulation.incident_policy.stops(last)) {
         warn("t = {:.6g} s: {}; nothing is written\n", simulation.state.time,
-            describe(incident, names_of(simulation.model.walls)));
+            describe(last.incidents.front(), names_of(simulation.model.walls)));
         return ExitCode::physics;
     }
 

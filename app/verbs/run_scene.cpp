@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/verbs/run_scene.hpp"
 
-#include "app/loop/open_scene.hpp"
 #include "app/loop/run_loop.hpp"
+#include "app/loop/run_origin.hpp"
+#include "app/loop/run_report.hpp"
 #include "app/system/signals.hpp"
-#include "app/system/terminal.hpp"
 #include "app/verbs/check_scene.hpp"
-#include "app/verbs/relaxation.hpp"
-#include "app/verbs/run_end.hpp"
-#include "io/scene/scene_file.hpp"
+#include "core/step/relaxation.hpp"
+#include "io/run/checkpoint.hpp"
+#include "io/run/summary.hpp"
+#include "io/text/input_error.hpp"
 
 #include <omp.h>
+
+#include <algorithm>
+#include <csignal>
 
 namespace talus
 {
@@ -33,10 +37,10 @@ void print_start(const OpenedScene& opened, const OverlapCheck& overlaps, Verbos
     say("threads: {}\noutput: {}\n", omp_get_max_threads(), folder.string());
 }
 
-void print_relaxation(const Relaxation& relaxation, const OverlapCheck& before, double d)
+void print_relaxation(int steps, const OverlapCheck& before, const OverlapCheck& left, double d)
 {
-    say("relaxed in {} steps: {} overlaps, the worst {:.2g} % d, became {}, the worst {:.2g} % d\n", relaxation.steps,
-        before.count, 100.0 * before.worst / d, relaxation.left.count, 100.0 * relaxation.left.worst / d);
+    say("relaxed in {} steps: {} overlaps, the worst {:.2g} % d, became {}, the worst {:.2g} % d\n", steps,
+        before.count, 100.0 * before.worst / d, left.count, 100.0 * left.worst / d);
 }
 
 void advise_to_relax(const OverlapCheck& overlaps, double d)
@@ -44,6 +48,54 @@ void advise_to_relax(const OverlapCheck& overlaps, double d)
     if (overlaps.worst > notable_overlap * d)
         warn("{} contacts overlap at the start, the worst by {:.2g} % d; --relax moves the spheres apart first\n",
             overlaps.count, 100.0 * overlaps.worst / d);
+}
+
+/// Incidents told on standard error; all of them are in the summary.
+constexpr std::size_t incidents_told = 5;
+
+void print_incidents(const RunSummary& summary)
+{
+    const std::size_t told = std::min(summary.incidents.size(), incidents_told);
+    for (std::size_t k = 0; k < told; ++k)
+        warn("t = {:.6g} s: {}\n", summary.simulated_time, describe(summary.incidents[k], summary.wall_names));
+    if (summary.incidents.size() > told) warn("and {} more, see summary.json\n", summary.incidents.size() - told);
+}
+
+/// Runs what is ready to run, writes summary.json and tells how it went.
+ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const std::filesystem::path& folder, Verbosity verbosity)
+{
+    const RunEnd end = loop.run();
+    const RunSummary summary = summarise(opened, loop, end);
+    write_summary(folder / "summary.json", summary);
+    if (verbosity != Verbosity::quiet) print_results(summary);
+    print_incidents(summary);
+    if (!end.incidents.empty()) return ExitCode::physics;
+    if (end.signal == 0) return ExitCode::done;
+    warn("stopped by {} at t = {:.6g} s after a checkpoint; to go on: talus resume {}\n",
+        end.signal == SIGINT ? "SIGINT" : "SIGTERM", summary.simulated_time, folder.string());
+    return end.signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
+}
+
+fs::path scene_of_run(const fs::path& folder)
+{
+    const fs::path scene = folder / "scene.resolved.toml";
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) throw InputError(fmt::format("{}: there is no such folder", folder.string()));
+    if (!fs::exists(scene, error))
+        throw InputError(fmt::format("{}: the folder holds no run of Talus", folder.string()));
+    return scene;
+}
+
+void print_resumption(const OpenedScene& opened, const Checkpoint& checkpoint, const CommandLine& line)
+{
+    if (!checkpoint.newer_is_broken.empty())
+        warn("{}; going on from the one before it, {}\n", checkpoint.newer_is_broken, checkpoint.path.string());
+    if (line.verbosity == Verbosity::quiet) return;
+    const State& state = opened.simulation.state;
+    say("{}: {}\n", opened.name, opened.scene.title);
+    say("resumed from {} at t = {:.6g} s, step {}, with {} spheres\n", checkpoint.path.string(), state.time,
+        state.steps, state.count());
+    say("threads: {}\noutput: {}\n", omp_get_max_threads(), line.out.string());
 }
 
 } // namespace
@@ -61,14 +113,39 @@ ExitCode run_scene(const CommandLine& line)
     const bool speaks = line.verbosity != Verbosity::quiet;
     if (speaks) print_start(opened, overlaps, line.verbosity, folder);
     if (line.relax) {
-        const Relaxation relaxation = relax_overlaps(opened.simulation, overlaps);
-        if (speaks) print_relaxation(relaxation, overlaps, d);
+        const int steps = relax_overlaps(opened.simulation.state, opened.simulation.model, overlaps.worst);
+        if (speaks) print_relaxation(steps, overlaps, check_overlaps(opened.simulation), d);
     } else if (speaks) {
         advise_to_relax(overlaps, d);
     }
 
     RunLoop loop(opened, folder, line.verbosity);
     return run_to_end(opened, loop, folder, line.verbosity);
+}
+
+ExitCode resume_run(const CommandLine& line)
+{
+    const fs::path scene = scene_of_run(line.out);
+    Checkpoint checkpoint = read_checkpoint(line.out, TALUS_VERSION);
+    if (line.threads > 0) omp_set_num_threads(line.threads);
+    try {
+        Archive archive(std::move(checkpoint.state));
+        RunOrigin origin;
+        archive(origin);
+        SceneFile file = read_scene_as_asked(scene, line);
+        refuse_other_scene(file, origin);
+        OpenedScene opened = build_opened(std::move(file), origin.scene_name);
+        catch_signals();
+
+        RunLoop loop(opened, line.out, line.verbosity, archive);
+        write_atomically(scene, resolved_scene(opened.scene));
+        fs::remove(line.out / "summary.json"); // of a run that had ended; this one has not
+        print_resumption(opened, checkpoint, line);
+        return run_to_end(opened, loop, line.out, line.verbosity);
+    } catch (const ArchiveError& error) {
+        throw InputError(fmt::format(
+            "{}: cannot be put back, as by another build of Talus: {}", checkpoint.path.string(), error.what()));
+    }
 }
 
 } // namespace talus

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/command_line.hpp"
-#include "app/system/exit_code.hpp"
 
 namespace talus
 {
@@ -11,5 +10,11 @@ namespace talus
 /// @returns done, physics where an incident ended the run, interrupted or terminated where a signal did
 /// @throws UsageError, InputError, OutputError
 ExitCode run_scene(const CommandLine& line);
+
+/// Goes on with the run in the folder that the command line names, from its checkpoint, bit for bit as if it had never
+/// stopped.
+/// @returns as run_scene does
+/// @throws InputError where there is no such run, no checkpoint that can be used, or another scene; OutputError
+ExitCode resume_run(const CommandLine& line);
 
 } // namespace talus

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/verbs/solve_problem.hpp"
 
-#include "app/loop/stop_watch.hpp"
 #include "app/system/terminal.hpp"
 #include "app/verbs/solve_report.hpp"
 #include "core/multibody/algorithm_2_1.hpp"
 #include "core/multibody/algorithm_3_1.hpp"
 #include "io/run/run_files.hpp"
+
+#include <chrono>
 
 namespace talus
 {
@@ -44,16 +45,21 @@ TimedReport timed(const AnyIterate& x, const fs::path& history_path, Solve&& sol
 {
     std::optional<History> history;
     if (!history_path.empty()) history.emplace(history_path);
-    StopWatch watch;
+    using Clock = std::chrono::steady_clock;
+    const auto since = [](Clock::time_point start) {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    const auto begun = Clock::now();
+    double held = 0.0; // while the errors were measured
     SweepObserver observer;
     if (history)
         observer = [&](int sweeps) {
-            watch.hold();
-            history->add(sweeps, watch.seconds(), x);
-            watch.go_on();
+            const auto now = Clock::now();
+            history->add(sweeps, since(begun) - held, x);
+            held += since(now);
         };
     TimedReport report = solve(observer);
-    report.seconds = watch.seconds();
+    report.seconds = since(begun) - held;
     return report;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/command_line.hpp"
-#include "app/system/exit_code.hpp"
 
 namespace talus
 {

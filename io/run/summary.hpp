@@ -49,7 +49,7 @@ struct ErrorSummary {
     double worst_overlap_time = 0.0; ///< when that was [s]
     std::int64_t long_moves = 0;     ///< moves of a sphere by more than 0.1 d in a step
     std::int64_t split_steps = 0;    ///< that were made in several for the sake of fast spheres
-    int most_sub_steps = 1;          ///< of a step
+    std::int64_t most_sub_steps = 1; ///< of a step
     double cone_violation = 0.0;     ///< worst |λ_t| − μ λ_n [N s]
     double energy_lost = 0.0;   ///< kinetic + potential + stored in contacts: sum of its falls from step to step [J]
     double energy_gained = 0.0; ///< sum of its rises, which nothing put in [J]

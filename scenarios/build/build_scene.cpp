@@ -109,6 +109,7 @@ Simulation build_scene(const scene::Scene& scene)
     simulation.pours = build_pours(scene, model, random);
     simulation.sensors = build_sensors(scene, model);
     simulation.output = build_output(scene);
+    simulation.incident_policy = {scene.world.on_escape == "remove", scene.solver.on_no_solution == "go_on"};
     simulation.duration = scene.time.duration;
 
     const auto choice = choose_step(scene, simulation, accuracy.setting.step_factor);

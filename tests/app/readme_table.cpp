@@ -25,8 +25,8 @@ void check_readme_table(const std::string& name, const std::string& table)
 
 std::string as_shown(std::string text, const std::vector<std::pair<std::string, std::string>>& patterns)
 {
-    std::vector<std::pair<std::string, std::string>> all = {{"t = [^ ,;]* s", "t = … s"},
-        {"in step [0-9]*", "in step …"}, {"hold [0-9]* bytes and holds [0-9]*", "hold … bytes and holds …"}};
+    std::vector<std::pair<std::string, std::string>> all = {
+        {"t = [^ ,;]* s", "t = … s"}, {"hold [0-9]* bytes and holds [0-9]*", "hold … bytes and holds …"}};
     all.insert(all.end(), patterns.begin(), patterns.end());
     for (const auto& [pattern, shown] : all) text = std::regex_replace(text, std::regex(pattern), shown);
     return text;

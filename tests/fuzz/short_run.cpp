@@ -28,8 +28,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size);
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* bytes, std::size_t size, std::size_t most);
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* bytes, std::size_t size, std::size_t most, unsigned seed)
-    __attribute__((weak));
 
 namespace
 {
@@ -122,10 +120,7 @@ std::string mutated(std::string input)
 {
     const std::size_t size = std::min(input.size(), longest);
     input.resize(longest);
-    auto* bytes = reinterpret_cast<std::uint8_t*>(input.data());
-    input.resize(LLVMFuzzerCustomMutator
-                     ? LLVMFuzzerCustomMutator(bytes, size, longest, static_cast<unsigned>(random_numbers()))
-                     : LLVMFuzzerMutate(bytes, size, longest));
+    input.resize(LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(input.data()), size, longest));
     return input;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hard_case.hpp"
 
-#include "app/verbs/relaxation.hpp"
 #include "core/base/region.hpp"
+#include "core/step/relaxation.hpp"
 #include "scenarios/build/build_scene.hpp"
 #include "tests/support/world.hpp"
 
@@ -91,9 +91,9 @@ void judge(HardCase& hard, const std::string& which, const Settling& result, dou
 void run_relaxed(HardCase& hard, double solid_fraction, double height, double largest_overlap)
 {
     auto simulation = crowded_box(solid_fraction, height);
-    const auto relaxation = relax_overlaps(simulation, check_overlaps(simulation));
-    hard.tell("relaxed: steps", relaxation.steps);
-    hard.tell("relaxed: worst overlap before the run [d]", relaxation.left.worst / d);
+    const int steps = relax_overlaps(simulation.state, simulation.model, check_overlaps(simulation).worst);
+    hard.tell("relaxed: steps", steps);
+    hard.tell("relaxed: worst overlap before the run [d]", check_overlaps(simulation).worst / d);
     hard.between("relaxed: spheres out of the box", static_cast<double>(outside(simulation)), 0, 0);
     judge(hard, "relaxed, then run", run(simulation, 0.2), largest_overlap);
 }

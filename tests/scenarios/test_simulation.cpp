@@ -89,3 +89,33 @@ TEST_CASE("a run that pours and empties keeps its ledger", "[simulation]")
     CHECK(simulation.outflow.count == 25);
     CHECK(simulation.outflow.mass == Approx(inserted_mass));
 }
+
+TEST_CASE("steps are made until the time, each told once, or until a hook wants no more", "[simulation]")
+{
+    auto simulation = build_scene(small_scene());
+    const double h = simulation.model.time_step;
+    int told = 0;
+    const auto count = [&](const StepReport&) { ++told; };
+    run_until(simulation, 20.0 * h, {.after_step = count});
+    CHECK(told == 20);
+    run_until(simulation, 20.0 * h, {.after_step = count});
+    CHECK(told == 20);
+    run_until(simulation, 40.0 * h, {.before_step = [&] { return told < 30; }, .after_step = count});
+    CHECK(simulation.state.steps == 30);
+}
+
+TEST_CASE("an escape ends the steps, or the sphere is taken out before the next one", "[simulation]")
+{
+    const bool removed = GENERATE(false, true);
+    auto scene = small_scene();
+    scene.world.on_escape = removed ? "remove" : "stop";
+    auto simulation = build_scene(scene);
+    const auto spheres = simulation.state.count();
+    simulation.state.position[3].z() = simulation.model.world.min.z();
+    simulation.state.motion[3].velocity = Vec3(0, 0, -1);
+    const StepReport last = run_until(simulation, 10.0 * simulation.model.time_step, {});
+    CHECK(simulation.state.steps == (removed ? 10 : 1));
+    CHECK(simulation.incident_policy.stops(last) == !removed);
+    CHECK(simulation.state.count() == spheres - (removed ? 1 : 0));
+    CHECK(simulation.escaped.size() == (removed ? 1 : 0));
+}

@@ -27,15 +27,15 @@ double run_until(Simulation& simulation, double time)
 {
     constexpr double sample_interval = 0.005;
     double next_sample = simulation.state.time, fastest = 0.0;
-    while (simulation.state.time < time) {
-        const auto report = advance(simulation);
+    const auto watch = [&](const StepReport& report) {
         REQUIRE(report.bodies.incidents.empty());
         fastest = std::max(fastest, report.bodies.fastest_speed);
         for (auto& sensor : simulation.sensors) sensor->watch(snapshot(simulation, report));
-        if (simulation.state.time < next_sample) continue;
+        if (simulation.state.time < next_sample) return;
         for (auto& sensor : simulation.sensors) sensor->sample(snapshot(simulation, report));
         next_sample += sample_interval;
-    }
+    };
+    talus::run_until(simulation, time, {.after_step = watch});
     return fastest;
 }
 

@@ -197,3 +197,11 @@ TEST_CASE("a quiet run prints nothing, a verbose one a line for every frame and 
     CHECK(lines(verbose.err).size() == 5 + 1); // and one for the checkpoint before the last step
     CHECK_THAT(verbose.err, StartsWith("frame: t "));
 }
+
+TEST_CASE("a run says how far the relaxation got", "[app][run]")
+{
+    const Workplace place;
+    const Outcome outcome = place.run(beads_in_a_box, "--relax");
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.out, Contains("relaxed in 0 steps: 0 overlaps"));
+}

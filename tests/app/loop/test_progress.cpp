@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/loop/step_watch.hpp"
+#include "app/loop/progress.hpp"
 
 #include <catch2/catch.hpp>
 
 using Catch::Matchers::Contains;
-using talus::Model;
+using talus::Simulation;
 using talus::StepReport;
 using talus::StepWatch;
 
 namespace
 {
 
-Model model()
+Simulation simulation()
 {
-    Model model;
-    model.mean_diameter = model.min_diameter = 0.01;
-    model.time_step = 1e-3;
-    return model;
+    Simulation simulation;
+    simulation.model.mean_diameter = simulation.model.min_diameter = 0.01;
+    simulation.model.time_step = 1e-3;
+    return simulation;
 }
 
 /// All that is said in so many steps that went like this one.
 std::string said(StepWatch& watch, const StepReport& report, int steps)
 {
+    const Simulation made_them = simulation();
     std::string text;
-    for (int k = 0; k < steps; ++k) text += watch.warning_after(report);
+    for (int k = 0; k < steps; ++k) text += watch.warning_after(report, made_them);
     return text;
 }
 
@@ -31,8 +32,7 @@ std::string said(StepWatch& watch, const StepReport& report, int steps)
 
 TEST_CASE("long moves are told once, in the tenth step that has them, with a step that would do", "[app][watch]")
 {
-    const Model m = model();
-    StepWatch watch(m);
+    StepWatch watch;
     StepReport fast;
     fast.long_moves = 3;
     fast.fastest_speed = 2.7;
@@ -44,8 +44,7 @@ TEST_CASE("long moves are told once, in the tenth step that has them, with a ste
 
 TEST_CASE("deep overlap is told once where it lasts, with a step that makes contacts stiff enough", "[app][watch]")
 {
-    const Model m = model();
-    StepWatch watch(m);
+    StepWatch watch;
     StepReport deep;
     deep.worst_overlap = 8e-4; // 8 % d
     CHECK(said(watch, deep, 199).empty());
