@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/loop/progress.hpp"
 
-#include "core/contacts/loaded_contacts.hpp"
+#include "core/contacts/loads.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,6 @@
 #include "app/system/signals.hpp"
 #include "app/system/terminal.hpp"
 #include "io/run/checkpoint.hpp"
-#include "io/run/lost_spheres.hpp"
 #include "io/text/input_error.hpp"
 #include "scenarios/build/checks.hpp"
 
