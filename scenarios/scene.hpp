@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/vector.hpp"
+#include "core/world/piston.hpp"
 #include "core/world/wall_motion.hpp"
 
 #include <algorithm>
@@ -371,6 +372,7 @@ struct PourTable {
 };
 
 using Waypoint = Course::Waypoint;
+using LoadRow = LoadPoint;
 
 struct MotionTable {
     std::string kind;
@@ -401,12 +403,6 @@ struct MotionTable {
             "rows [time, x, y, z]: how far from its place the wall is then; straight lines in between, held at the "
             "ends");
     }
-};
-
-/// The load on a wall of finite mass at a time.
-struct LoadRow {
-    double time = 0.0;  ///< [s]
-    double force = 0.0; ///< along the guide [N]
 };
 
 struct WallTable {
