@@ -154,7 +154,6 @@ struct SolverTable {
     std::int64_t min_sweeps = 0;
     std::int64_t max_sweeps = 100;
     double relaxation = 1.3;
-    double restitution_threshold = 3.0;
     NumberOrName push_out_speed = {0.0, "auto"};
     SwitchOrName pressure_scaling = {false, "auto"};
     std::string on_no_solution = "stop";
@@ -177,8 +176,6 @@ struct SolverTable {
         key("relaxation", self.relaxation, between(0.5, 1.6), "",
             "of the sweeps after the least number, but where pressures are scaled; above 1 they go farther than each "
             "contact asks for, by which fast flows converge in fewer sweeps");
-        key("restitution_threshold", self.restitution_threshold, at_least(0.0), "gravity x step",
-            "slower impacts do not rebound");
         key("push_out_speed", self.push_out_speed, Allowed{.min = 0.0, .names = {"auto"}}, "m/s",
             "largest speed with which overlap is undone; auto: 0.1 sqrt(diameter x gravity), without gravity 0.0008 "
             "diameter / step");

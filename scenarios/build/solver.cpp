@@ -42,7 +42,6 @@ SolverSettings build_solver(const scene::Scene& scene, const RunSetting& setting
             "'max_sweeps' must be at least the " + std::to_string(solver.min_sweeps) + " of 'min_sweeps'");
     solver.tolerance = tolerance(table.tolerance, setting.tolerance);
     solver.relaxation = table.relaxation;
-    solver.restitution_threshold = table.restitution_threshold;
     return solver;
 }
 

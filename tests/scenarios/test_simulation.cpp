@@ -62,8 +62,10 @@ TEST_CASE("an overlap with a wall is told with the wall", "[check_overlaps]")
 
 TEST_CASE("a wall that does not stand yet overlaps nothing", "[check_overlaps]")
 {
-    auto simulation = empty_simulation();
-    simulation.model.walls[0].appear_at = 1.0;
+    auto scene = small_scene();
+    scene.wall[0].appear_at = 1.0;
+    auto simulation = build_scene(scene);
+    simulation.state = State{};
     add_bead(simulation, Vec3(0.02, 0.02, 0.003));
     CHECK(check_overlaps(simulation).count == 0);
 }

@@ -95,13 +95,16 @@ TEST_CASE("a pour by mass in the scene is one in the simulation", "[insertion]")
     table.rate = 0.0;
     table.mass = 0.02;
     table.mass_rate = 0.5;
+    table.start = 0.03;
     table.material.clear();
     table.diameter = {};
     table.species = {species("steel", 0.006, 3.0), species("glass", 0.009, 1.0)};
     auto simulation = build_scene(scene);
     const auto& pour = simulation.pours.at(0);
     CHECK(pour.mixture.species.at(0).number > pour.mixture.species.at(1).number);
-    while (simulation.state.time < 0.1) step(simulation);
+    while (simulation.state.time < 0.03) step(simulation);
+    CHECK(pour.poured == 0);
+    while (simulation.state.time < 0.13) step(simulation);
     CHECK(is_over(pour));
     CHECK(pour.poured_mass >= 0.02);
     CHECK(pour.poured_mass < 0.021);
