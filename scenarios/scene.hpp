@@ -368,6 +368,15 @@ struct PourTable {
     }
 };
 
+/// The names of all materials in a fill or a pour.
+std::vector<std::string> materials_in(const auto& table)
+{
+    if (table.species.empty()) return {table.material};
+    std::vector<std::string> names;
+    for (const SpeciesTable& species : table.species) names.push_back(species.material);
+    return names;
+}
+
 using Waypoint = Course::Waypoint;
 using LoadRow = LoadPoint;
 

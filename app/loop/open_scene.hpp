@@ -3,7 +3,7 @@
 
 #include "app/command_line.hpp"
 #include "io/scene/scene_file.hpp"
-#include "scenarios/simulation.hpp"
+#include "scenarios/build/build_report.hpp"
 
 #include <filesystem>
 #include <string>
@@ -17,6 +17,7 @@ struct OpenedScene {
     std::string name; ///< of the file, without folder and ending
     scene::Scene scene;
     Simulation simulation;
+    BuildReport report; ///< what there is to tell of the simulation as it was built
 };
 
 /// The file of a scene that is named as on the command line.

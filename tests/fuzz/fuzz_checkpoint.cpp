@@ -22,7 +22,7 @@ talus::Simulation simulation()
     auto scene = talus::test::small_scene();
     scene.pour.push_back(talus::test::small_pour());
     scene.sensor.push_back(talus::test::sensor("flow", "mass_flow"));
-    return talus::build_scene(scene);
+    return talus::build_scene(scene).simulation;
 }
 
 /// A good one, from which all others come.

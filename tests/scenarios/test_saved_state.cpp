@@ -18,7 +18,7 @@ namespace
 /// Beads at rest on the floor, and on each other.
 std::string saved()
 {
-    auto simulation = build_scene(small_scene());
+    auto simulation = build_scene(small_scene()).simulation;
     for (int k = 0; k < 1000; ++k) step(simulation);
     REQUIRE(!simulation.contacts.pairs.empty());
     REQUIRE(!simulation.contacts.wall_pairs.empty());
@@ -59,7 +59,7 @@ const std::vector<std::pair<std::string, Spoil>> contradictions = {
 TEST_CASE("a saved state is put back", "[saved_state]")
 {
     const std::string bytes = saved();
-    auto simulation = build_scene(small_scene());
+    auto simulation = build_scene(small_scene()).simulation;
     put_back(simulation, bytes);
     Archive again;
     again(simulation);
@@ -72,7 +72,7 @@ TEST_CASE("a saved state that contradicts itself is refused", "[saved_state]")
     const std::string bytes = saved();
     for (const auto& [text, spoil] : contradictions) {
         INFO(text);
-        auto simulation = build_scene(small_scene()), other = build_scene(small_scene());
+        auto simulation = build_scene(small_scene()).simulation, other = build_scene(small_scene()).simulation;
         put_back(simulation, bytes);
         spoil(simulation.state, simulation.contacts);
         Archive spoilt;

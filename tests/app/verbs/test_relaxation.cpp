@@ -19,7 +19,7 @@ Simulation beads()
 {
     const Workplace place;
     place.write("scene.toml", replaced(beads_in_a_box, "count = 8", "count = 30"));
-    return talus::build_scene(talus::read_scene(place.path("scene.toml")).scene);
+    return talus::build_scene(talus::read_scene(place.path("scene.toml")).scene).simulation;
 }
 
 /// The beads thrown about in the box, through each other and through its walls.

@@ -611,7 +611,7 @@ TEST_CASE("tables whose name is left out do not collide", "[scenes]")
     auto scene = small_scene();
     scene.pour = {small_pour(), small_pour()};
     scene.outlet = {{"", scene.fill[0].region}, {"", scene.fill[0].region}};
-    const auto simulation = build_scene(scene);
+    const auto simulation = build_scene(scene).simulation;
     CHECK(simulation.pours.size() == 2);
     CHECK(simulation.pours[0].name != simulation.pours[1].name);
     CHECK(simulation.model.outlets.size() == 2);
