@@ -249,7 +249,7 @@ struct DiameterTable {
     std::string file = {};
 
     std::vector<double> sieve_sizes = {};   ///< [m], of the file, filled in by io, rising
-    std::vector<double> sieve_passing = {}; ///< likewise: share of the mass that passes each, from 0 to 1
+    std::vector<double> sieve_passing = {}; ///< share of the mass that passes each, from 0 to 1
 
     static void describe(auto& self, auto&& key)
     {
@@ -449,7 +449,7 @@ struct WallTable {
     Vec3 translate = Vec3::Zero();
 
     std::vector<Vec3> vertices;                         ///< of the mesh, filled in by io, scaled and translated
-    std::vector<std::array<std::int32_t, 3>> triangles; ///< likewise
+    std::vector<std::array<std::int32_t, 3>> triangles; ///< of three vertices
 
     static void describe(auto& self, auto&& key)
     {
