@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/vector.hpp"
+#include "core/world/piston.hpp"
 #include "core/world/wall_motion.hpp"
 
 #include <algorithm>
@@ -153,7 +154,6 @@ struct SolverTable {
     std::int64_t min_sweeps = 0;
     std::int64_t max_sweeps = 100;
     double relaxation = 1.3;
-    double restitution_threshold = 3.0;
     NumberOrName push_out_speed = {0.0, "auto"};
     SwitchOrName pressure_scaling = {false, "auto"};
     std::string on_no_solution = "stop";
@@ -176,8 +176,6 @@ struct SolverTable {
         key("relaxation", self.relaxation, between(0.5, 1.6), "",
             "of the sweeps after the least number, but where pressures are scaled; above 1 they go farther than each "
             "contact asks for, by which fast flows converge in fewer sweeps");
-        key("restitution_threshold", self.restitution_threshold, at_least(0.0), "gravity x step",
-            "slower impacts do not rebound");
         key("push_out_speed", self.push_out_speed, Allowed{.min = 0.0, .names = {"auto"}}, "m/s",
             "largest speed with which overlap is undone; auto: 0.1 sqrt(diameter x gravity), without gravity 0.0008 "
             "diameter / step");
@@ -251,7 +249,7 @@ struct DiameterTable {
     std::string file = {};
 
     std::vector<double> sieve_sizes = {};   ///< [m], of the file, filled in by io, rising
-    std::vector<double> sieve_passing = {}; ///< likewise: share of the mass that passes each, from 0 to 1
+    std::vector<double> sieve_passing = {}; ///< share of the mass that passes each, from 0 to 1
 
     static void describe(auto& self, auto&& key)
     {
@@ -370,7 +368,17 @@ struct PourTable {
     }
 };
 
+/// The names of all materials in a fill or a pour.
+std::vector<std::string> materials_in(const auto& table)
+{
+    if (table.species.empty()) return {table.material};
+    std::vector<std::string> names;
+    for (const SpeciesTable& species : table.species) names.push_back(species.material);
+    return names;
+}
+
 using Waypoint = Course::Waypoint;
+using LoadRow = LoadPoint;
 
 struct MotionTable {
     std::string kind;
@@ -401,12 +409,6 @@ struct MotionTable {
             "rows [time, x, y, z]: how far from its place the wall is then; straight lines in between, held at the "
             "ends");
     }
-};
-
-/// The load on a wall of finite mass at a time.
-struct LoadRow {
-    double time = 0.0;  ///< [s]
-    double force = 0.0; ///< along the guide [N]
 };
 
 struct WallTable {
@@ -447,7 +449,7 @@ struct WallTable {
     Vec3 translate = Vec3::Zero();
 
     std::vector<Vec3> vertices;                         ///< of the mesh, filled in by io, scaled and translated
-    std::vector<std::array<std::int32_t, 3>> triangles; ///< likewise
+    std::vector<std::array<std::int32_t, 3>> triangles; ///< of three vertices
 
     static void describe(auto& self, auto&& key)
     {

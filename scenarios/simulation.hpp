@@ -12,7 +12,6 @@
 
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace talus
@@ -39,11 +38,7 @@ struct Simulation {
     std::vector<EscapedSphere> escaped; ///< and taken out, where the scene says so
     std::vector<std::unique_ptr<Sensor>> sensors;
     OutputChoice output;
-    double duration = 0.0;            ///< [s]
-    std::string accuracy_explanation; ///< one line: what the scene's accuracy picked; empty where it asks for none
-    std::string step_explanation;     ///< one line: where the time step comes from
-    std::string model_explanation;    ///< one line: what the run models and what it leaves out
-    std::string overlap_forecast;     ///< one line: the stiffness cap of `matched` and the overlap that it implies
+    double duration = 0.0; ///< [s]
 
     /// All that changes in a run; the rest follows from the scene.
     /// @throws ArchiveError where what is put back is not whole, or of a scene with other kinds of impulses

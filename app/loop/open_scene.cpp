@@ -38,8 +38,8 @@ SceneFile read_scene_as_asked(const fs::path& path, const SceneRequest& request)
 OpenedScene build_opened(SceneFile file, std::string name)
 {
     try {
-        Simulation simulation = build_scene(file.scene);
-        return {std::move(name), std::move(file.scene), std::move(simulation)};
+        auto [simulation, report] = build_scene(file.scene);
+        return {std::move(name), std::move(file.scene), std::move(simulation), std::move(report)};
     } catch (const SceneError& error) {
         const std::string first =
             error.first_key.empty() ? "" : fmt::format("; the first is at {}", file.place_of(error.first_key));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/scene/scene_file.hpp"
-#include "scenarios/simulation.hpp"
+#include "scenarios/build/build_report.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -26,6 +26,7 @@ struct OpenedScene {
     std::string name; ///< of the file, without folder and ending
     scene::Scene scene;
     Simulation simulation;
+    BuildReport report; ///< what there is to tell of the simulation as it was built
 };
 
 /// The file of a scene that is given as a path or a name in scenarios/.

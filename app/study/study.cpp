@@ -257,7 +257,7 @@ StudyFrame frame_of(const CommandLine& line, scene::Study study, const OpenedSce
 double usual_step(scene::Scene scene)
 {
     scene.accuracy.clear();
-    return build_scene(scene).model.time_step;
+    return build_scene(scene).simulation.model.time_step;
 }
 
 std::vector<std::int64_t> seeds_of(const StudyFrame& frame, const OpenedScene& opened)

@@ -93,11 +93,12 @@ void print_overlaps_at_start(const Simulation& simulation, const OverlapCheck& o
 
 } // namespace
 
-void print_explanations(const Simulation& simulation, const OverlapCheck& overlaps)
+void print_explanations(const OpenedScene& opened, const OverlapCheck& overlaps)
 {
-    if (!simulation.accuracy_explanation.empty()) say("{}\n", simulation.accuracy_explanation);
-    say("{}\n{}\n{}\n", simulation.step_explanation, simulation.model_explanation, simulation.overlap_forecast);
-    print_overlaps_at_start(simulation, overlaps);
+    const BuildReport& report = opened.report;
+    if (!report.accuracy.empty()) say("{}\n", report.accuracy);
+    say("{}\n{}\n{}\n", report.step, report.model, report.overlap);
+    print_overlaps_at_start(opened.simulation, overlaps);
 }
 
 void print_scene(const OpenedScene& opened, const OverlapCheck& overlaps)
@@ -109,7 +110,7 @@ void print_scene(const OpenedScene& opened, const OverlapCheck& overlaps)
     say("walls: {} with {} triangles; materials: {}; outlets: {}; sensors: {}\n", simulation.model.walls.size(),
         triangle_count(simulation.model), simulation.model.materials.list.size(), simulation.model.outlets.size(),
         simulation.sensors.size());
-    print_explanations(simulation, overlaps);
+    print_explanations(opened, overlaps);
     print_needs(opened);
 }
 

@@ -13,7 +13,7 @@ void print_scene(const OpenedScene& opened, const OverlapCheck& overlaps);
 void check_scene(const OpenedScene& opened);
 
 /// Prints where the step comes from, what is modelled, which overlap to expect, and which overlaps there are already.
-void print_explanations(const Simulation& simulation, const OverlapCheck& overlaps);
+void print_explanations(const OpenedScene& opened, const OverlapCheck& overlaps);
 
 /// Prints name and title of every scene that comes with Talus.
 void list_scenes();

@@ -40,7 +40,7 @@ ExitCode dump_step(const CommandLine& line)
     const StepReport last = step_until(simulation, line.at, line.verbosity);
     if (simulation.incident_policy.stops(last)) {
         warn("t = {:.6g} s: {}; nothing is written\n", simulation.state.time,
-            describe(last.incidents.front(), names_of(simulation.model.walls)));
+            describe(last.bodies.incidents.front(), names_of(simulation.model.walls)));
         return ExitCode::physics;
     }
 

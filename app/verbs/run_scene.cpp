@@ -32,7 +32,7 @@ void print_start(const OpenedScene& opened, const OverlapCheck& overlaps, Verbos
         print_scene(opened, overlaps);
     } else {
         say("{}: {}\n", opened.name, opened.scene.title);
-        print_explanations(opened.simulation, overlaps);
+        print_explanations(opened, overlaps);
     }
     say("threads: {}\noutput: {}\n", omp_get_max_threads(), folder.string());
 }

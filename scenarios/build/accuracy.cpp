@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/build/accuracy.hpp"
 
-#include "scenarios/build/solver.hpp"
 #include "scenarios/scene_error.hpp"
 
 #include <charconv>

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/contacts/law.hpp"
-#include "scenarios/scene.hpp"
+#include "scenarios/build/solver.hpp"
 
 #include <string>
 #include <vector>
 
 namespace talus
 {
-
-/// What decides how wrong a run is, and how long it takes.
-struct RunSetting {
-    double step_factor = 1.0; ///< on the time step that gravity allows (step_choice.hpp)
-    int min_sweeps = 0;       ///< 0: the usual number
-    double tolerance = 1e-2;
-};
 
 /// A setting as the studies found it (tests/studies/README.md tells what each error is).
 struct MeasuredSetting {

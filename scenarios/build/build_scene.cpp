@@ -4,13 +4,7 @@
 #include "scenarios/build/accuracy.hpp"
 #include "scenarios/build/checks.hpp"
 #include "scenarios/build/materials.hpp"
-#include "scenarios/build/output.hpp"
-#include "scenarios/build/region.hpp"
-#include "scenarios/build/scaling_choice.hpp"
 #include "scenarios/build/sensors.hpp"
-#include "scenarios/build/solver.hpp"
-#include "scenarios/build/spheres.hpp"
-#include "scenarios/build/step_choice.hpp"
 #include "scenarios/build/walls.hpp"
 #include "scenarios/build/world.hpp"
 
@@ -42,86 +36,97 @@ void refuse_shared_names(const scene::Scene& scene)
     refuse_shared_names(scene.sensor, "sensor");
 }
 
+OutputChoice build_output(const scene::OutputTable& table)
+{
+    OutputChoice choice{table.particle_arrays, table.contact_arrays, table.contact_threshold, {}};
+    if (table.region.shape != "everything") choice.region = require_region(table.region, "output.region");
+    return choice;
+}
+
 std::vector<Region> build_outlets(const scene::Scene& scene)
 {
     std::vector<Region> outlets;
     for (std::size_t k = 0; k < scene.outlet.size(); ++k)
-        outlets.push_back(build_region(scene.outlet[k].region, key_path("outlet", k, "region")));
+        outlets.push_back(require_region(scene.outlet[k].region, key_path("outlet", k, "region")));
     return outlets;
 }
 
-/// The constant part of the simulation, but for the step, which the spheres decide along with it.
-Model build_model(const scene::Scene& scene, const RunSetting& setting)
+/// What must be modelled; the rest is left out of the step.
+ModelledPhysics needed_physics(const scene::Scene& scene, const Materials& materials)
+{
+    ModelledPhysics physics;
+    for (const auto& law : materials.laws) {
+        physics.friction = physics.friction || law.friction > 0.0 || law.rolling_friction > 0.0;
+        physics.rolling = physics.rolling || law.rolling_friction > 0.0;
+        physics.restitution = physics.restitution || law.restitution > 0.0;
+    }
+    if (physics.rolling && !scene.world.rotation)
+        throw SceneError("world.rotation", "spheres that do not turn have no rolling resistance: leave out "
+                                           "'rolling_friction', or let them turn");
+    physics.spin = physics.friction && scene.world.rotation;
+    for (const auto& wall : scene.wall) {
+        physics.moving_walls = physics.moving_walls || !wall.motion.empty();
+        physics.pistons = physics.pistons || std::isfinite(wall.mass);
+    }
+    physics.wall_loads = std::ranges::find(scene.sensor, "wall_force", &scene::SensorTable::kind) != scene.sensor.end();
+    return physics;
+}
+
+/// The constant part of the simulation, but for what the spheres decide when they have their places: step, speed limit
+/// and solver.
+Model build_model(const scene::Scene& scene, const Materials& materials, const std::vector<Fill>& fills,
+    const std::vector<Pour>& pours)
 {
     Model model;
     model.gravity = scene.world.gravity;
-    model.materials = build_materials(scene);
-    model.physics = needed_physics(scene, model.materials);
-    model.physics.wall_loads = needs_wall_loads(scene);
-    find_diameters(model, scene);
-    model.periodicity = build_periodicity(scene, model.max_diameter);
-    model.walls = build_walls(scene, model.materials, model.periodicity);
+    model.materials = materials;
+    model.physics = needed_physics(scene, materials);
+    find_diameters(model, fills, pours);
+    model.periodicity = build_periodicity(scene.world, model.max_diameter);
+    model.walls = build_walls(scene, materials, model.periodicity);
     model.pistons = build_pistons(scene, model.walls, model.periodicity);
     model.outlets = build_outlets(scene);
-    model.world = build_world(scene, model);
-    model.corner = scene_corner(scene, model);
-    model.solver = build_solver(scene, setting);
+    model.world = build_world(scene, model, fills, pours);
+    model.corner = scene_corner(model, fills, pours);
+    require_inside_world(fills, pours, model.world);
     return model;
-}
-
-std::string explain_model(const Model& model)
-{
-    const auto& p = model.physics;
-    const bool meshes = std::any_of(
-        model.walls.begin(), model.walls.end(), [](const Wall& w) { return std::holds_alternative<Mesh>(w.shape); });
-    std::string models = "models contact", leaves_out;
-    const auto say = [&](bool needed, const char* what) {
-        auto& list = needed ? models : leaves_out;
-        list += (list.empty() ? "" : ", ") + std::string(what);
-    };
-    say(p.friction, "friction");
-    say(p.spin, "rotation");
-    say(p.rolling, "rolling resistance");
-    say(p.restitution, "restitution");
-    say(meshes, "mesh walls");
-    say(p.moving_walls, "moving walls");
-    say(p.pistons, "walls of finite mass");
-    say(model.periodicity.any(), "periodic axes");
-    say(!model.outlets.empty(), "outlets");
-    if (model.solver.stabilisation == Stabilisation::projected)
-        say(model.solver.pressure_scaling, "scaling of pressures");
-    return models + (leaves_out.empty() ? "" : "; leaves out " + leaves_out);
 }
 
 } // namespace
 
-Simulation build_scene(const scene::Scene& scene)
+BuiltScene build_scene(const scene::Scene& scene)
 {
     refuse_shared_names(scene);
+
+    // Every table is read once, in the order of the scene.
     Simulation simulation;
-    auto& model = simulation.model;
+    Model& model = simulation.model;
     const AccuracyChoice accuracy = choose_accuracy(scene);
-    model = build_model(scene, accuracy.setting);
-
-    simulation.state.pistons.resize(model.pistons.size());
-    Random random(static_cast<std::uint64_t>(scene.seed));
-    fill_spheres(simulation, scene, random);
-    simulation.pours = build_pours(scene, model, random);
-    simulation.sensors = build_sensors(scene, model);
-    simulation.output = build_output(scene);
-    simulation.incident_policy = {scene.world.on_escape == "remove", scene.solver.on_no_solution == "go_on"};
     simulation.duration = scene.time.duration;
+    const SolverSettings solver = build_solver(scene.solver, accuracy.setting);
+    simulation.output = build_output(scene.output);
+    simulation.incident_policy = {scene.world.on_escape == "remove", scene.solver.on_no_solution == "go_on"};
+    const Materials materials = build_materials(scene);
+    const std::vector<Fill> fills = build_fills(scene, materials);
+    simulation.pours = build_pours(scene, materials);
+    model = build_model(scene, materials, fills, simulation.pours);
+    simulation.sensors = build_sensors(scene, model);
 
-    const auto choice = choose_step(scene, simulation, accuracy.setting.step_factor);
-    model.time_step = choice.step;
-    model.solver.push_out_speed = push_out_speed(scene, model);
-    choose_pressure_scaling(scene, simulation);
-    model.speed_limit = 10.0 * choice.fastest_speed + model.min_diameter / choice.step;
-    simulation.accuracy_explanation = accuracy.explanation;
-    simulation.step_explanation = choice.explanation;
-    simulation.model_explanation = explain_model(model);
-    simulation.overlap_forecast = forecast_overlap(simulation);
-    return simulation;
+    // Spheres take their places among the walls. One generator gives all fills theirs, and then each pour its seed.
+    Random random(static_cast<std::uint64_t>(scene.seed));
+    place_spheres(simulation.state, fills, model, random);
+    for (Pour& pour : simulation.pours) pour.random.seed(random());
+    simulation.state.pistons.resize(model.pistons.size());
+
+    // The spheres decide the step, and with it what the scene leaves open of the solver.
+    const StepChoice step = choose_step(scene, simulation, accuracy.setting.step_factor);
+    model.time_step = step.step;
+    model.speed_limit = step.speed_limit;
+    model.solver = complete_solver(solver, scene.solver, simulation);
+
+    BuildReport report{accuracy.explanation, explain_step(step, model.min_diameter), explain_model(model),
+        forecast_overlap(simulation)};
+    return {std::move(simulation), std::move(report)};
 }
 
 } // namespace talus

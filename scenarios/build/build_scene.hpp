@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "scenarios/build/build_report.hpp"
 #include "scenarios/scene.hpp"
 #include "scenarios/scene_error.hpp"
-#include "scenarios/simulation.hpp"
 
 namespace talus
 {
 
+/// A simulation ready to run, and what there is to tell of it.
+struct BuiltScene {
+    Simulation simulation;
+    BuildReport report;
+};
+
 /// Builds the simulation that a scene describes. The meshes of its walls must have been read (WallTable::triangles).
 /// @throws SceneError
-Simulation build_scene(const scene::Scene& scene);
+BuiltScene build_scene(const scene::Scene& scene);
 
 } // namespace talus

@@ -49,4 +49,21 @@ Box require_box(const Vec3& min, const Vec3& max, const std::string& key)
     return {min, max};
 }
 
+Region require_region(const scene::RegionTable& table, const std::string& key)
+{
+    Region region;
+    if (table.shape == "box") {
+        region.box = require_box(table.min, table.max, key + ".max");
+        return region;
+    }
+    require_positive(table.radius, key + ".radius", "the radius of a cylinder");
+    require_positive(table.height, key + ".height", "the height of a cylinder");
+    region.shape = Region::Shape::cylinder;
+    region.base = table.base;
+    region.axis = unit_vector(table.axis, key + ".axis");
+    region.radius = table.radius;
+    region.height = table.height;
+    return region;
+}
+
 } // namespace talus

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/base/vector.hpp"
+#include "core/base/region.hpp"
+#include "scenarios/scene.hpp"
 #include "scenarios/scene_error.hpp"
 
 #include <algorithm>
@@ -51,5 +52,8 @@ Box require_layer(const Vec3& min, const Vec3& max, const std::string& key);
 
 /// The box between two corners. @throws SceneError where it is empty
 Box require_box(const Vec3& min, const Vec3& max, const std::string& key);
+
+/// The region that a table describes. @param key its path; @throws SceneError where it is empty
+Region require_region(const scene::RegionTable& table, const std::string& key);
 
 } // namespace talus

@@ -2,7 +2,6 @@
 #include "scenarios/build/materials.hpp"
 
 #include "scenarios/build/checks.hpp"
-#include "scenarios/build/mixture.hpp"
 
 #include <cmath>
 #include <set>
@@ -76,25 +75,6 @@ Materials build_materials(const scene::Scene& scene)
 int material_index(const Materials& materials, const std::string& name, const std::string& key)
 {
     return static_cast<int>(index_of(materials.list, "material", name, key));
-}
-
-ModelledPhysics needed_physics(const scene::Scene& scene, const Materials& materials)
-{
-    ModelledPhysics physics;
-    for (const auto& law : materials.laws) {
-        physics.friction = physics.friction || law.friction > 0.0 || law.rolling_friction > 0.0;
-        physics.rolling = physics.rolling || law.rolling_friction > 0.0;
-        physics.restitution = physics.restitution || law.restitution > 0.0;
-    }
-    if (physics.rolling && !scene.world.rotation)
-        throw SceneError("world.rotation", "spheres that do not turn have no rolling resistance: leave out "
-                                           "'rolling_friction', or let them turn");
-    physics.spin = physics.friction && scene.world.rotation;
-    for (const auto& wall : scene.wall) {
-        physics.moving_walls = physics.moving_walls || !wall.motion.empty();
-        physics.pistons = physics.pistons || std::isfinite(wall.mass);
-    }
-    return physics;
 }
 
 } // namespace talus

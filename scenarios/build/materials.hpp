@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/world/model.hpp"
+#include "core/world/material.hpp"
 #include "scenarios/scene.hpp"
 
 namespace talus
@@ -13,9 +13,5 @@ Materials build_materials(const scene::Scene& scene);
 
 /// The index of a material by its name. @param key where the name stands; @throws SceneError where there is none
 int material_index(const Materials& materials, const std::string& name, const std::string& key);
-
-/// What must be modelled for these materials; the rest is left out of the step.
-/// @throws SceneError where it contradicts the scene's rotation
-ModelledPhysics needed_physics(const scene::Scene& scene, const Materials& materials);
 
 } // namespace talus

@@ -9,7 +9,6 @@
 #include "core/sensors/wall_force.hpp"
 #include "core/sensors/wall_position.hpp"
 #include "scenarios/build/checks.hpp"
-#include "scenarios/build/region.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -64,7 +63,7 @@ std::unique_ptr<Sensor> build_slope(const Entry& entry)
 
 std::unique_ptr<Sensor> build_region_average(const Entry& entry)
 {
-    const Region region = build_region(entry.table.region, entry.key("region"));
+    const Region region = require_region(entry.table.region, entry.key("region"));
     return std::make_unique<RegionAverage>(entry.table.name, region, build_window(entry));
 }
 
@@ -83,7 +82,7 @@ std::unique_ptr<Sensor> build_profile(const Entry& entry)
     static const std::map<std::string, Direction> directions = {{"x", Direction::x}, {"y", Direction::y},
         {"z", Direction::z}, {"axial", Direction::axial}, {"radial", Direction::radial}};
     require_file_name(entry);
-    const Region region = build_region(entry.table.region, entry.key("region"));
+    const Region region = require_region(entry.table.region, entry.key("region"));
     const Direction direction = directions.at(entry.table.direction);
     if ((region.shape == Region::Shape::box) != (direction < Direction::axial))
         throw SceneError(entry.key("direction"), "a box is cut along 'x', 'y' or 'z', a cylinder 'axial' or 'radial'");
@@ -123,11 +122,6 @@ std::vector<std::unique_ptr<Sensor>> build_sensors(const scene::Scene& scene, co
     std::vector<std::unique_ptr<Sensor>> sensors;
     for (std::size_t k = 0; k < scene.sensor.size(); ++k) sensors.push_back(build_sensor({scene.sensor[k], k}, model));
     return sensors;
-}
-
-bool needs_wall_loads(const scene::Scene& scene)
-{
-    return std::ranges::find(scene.sensor, "wall_force", &scene::SensorTable::kind) != scene.sensor.end();
 }
 
 } // namespace talus

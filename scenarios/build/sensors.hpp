@@ -14,7 +14,4 @@ namespace talus
 /// The sensors in the order of the scene. @throws SceneError where one has nothing to measure
 std::vector<std::unique_ptr<Sensor>> build_sensors(const scene::Scene& scene, const Model& model);
 
-/// Whether a sensor of the scene asks for the load on walls in every step.
-bool needs_wall_loads(const scene::Scene& scene);
-
 } // namespace talus

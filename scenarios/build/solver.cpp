@@ -3,12 +3,83 @@
 
 #include "scenarios/scene_error.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace talus
 {
 namespace
 {
+
+constexpr double deep = 40.0;       ///< mean diameters; in shallower beds at rest sweeps alone do nearly as well
+constexpr double very_deep = 100.0; ///< mean diameters; there three sweeps do not clean up after it (hard case 33)
+constexpr int sweeps_in_very_deep = 6;
+constexpr double heavy = 10.0;       ///< times the lightest sphere
+constexpr double packed_share = 0.6; ///< of the room that a bed takes
+
+/// All volumes and masses that the scene makes.
+struct Contents {
+    double volume = 0.0;                        ///< of the spheres [m³]
+    double lightest = infinity, heaviest = 0.0; ///< bodies [kg]
+    Box room;                                   ///< of fills and pours [m]
+};
+
+Contents contents_of(const Simulation& simulation)
+{
+    const auto& model = simulation.model;
+    const State& state = simulation.state;
+    Contents all;
+    const auto add_mass = [&](double mass) {
+        all.lightest = std::min(all.lightest, mass);
+        all.heaviest = std::max(all.heaviest, mass);
+    };
+    const auto volume = [](double diameter) { return std::numbers::pi / 6.0 * std::pow(diameter, 3); };
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        all.volume += volume(2.0 * state.radius(i));
+        all.room.extend(Box{state.position[i], state.position[i]}.grown(state.radius(i)));
+        add_mass(state.mass(i));
+    }
+    for (const Pour& source : simulation.pours) {
+        all.volume += expected_count(source, model.materials) * volume(source.mixture.mean_diameter());
+        all.room.extend(source.region.bounds());
+        for (const Species& species : source.mixture.species) {
+            const double density = model.materials.list[static_cast<std::size_t>(species.material)].density;
+            add_mass(density * volume(source.mixture.min_diameter()));
+            add_mass(density * volume(source.mixture.max_diameter()));
+        }
+    }
+    for (const Piston& piston : model.pistons) all.heaviest = std::max(all.heaviest, piston.mass);
+    return all;
+}
+
+/// How deep the bed may become, in mean diameters: its volume, packed, over the room across gravity. 0 without gravity.
+double depth_of(const Contents& all, const Model& model)
+{
+    if (model.gravity.isZero() || all.room.empty()) return 0.0;
+    const Vec3 up = model.up().cwiseAbs();
+    const Vec3 extent = all.room.extent();
+    const double across = // the area of the box as seen from above
+        up.x() * extent.y() * extent.z() + up.y() * extent.z() * extent.x() + up.z() * extent.x() * extent.y();
+    return all.volume / packed_share / across / model.mean_diameter;
+}
+
+bool pressure_is_scaled(const scene::SwitchOrName& asked, const Contents& all, double depth, const Model& model)
+{
+    if (asked.name != "auto") return asked.on;
+    // A bed presses against its own images: that balances whatever its size, so nothing seems to keep the pressure from
+    // growing. A flow down a periodic slope overlapped five times as much (hard case 35).
+    return !model.periodicity.any() && (depth >= deep || all.heaviest >= heavy * all.lightest);
+}
+
+double push_out_speed(const scene::NumberOrName& given, const Model& model)
+{
+    if (given.name != "auto") return given.number;
+    const double gravity = model.gravity.norm();
+    // Without gravity what it is with gravity at the automatic step h = 0.008 √(d/gravity).
+    return gravity > 0.0 ? 0.1 * std::sqrt(model.mean_diameter * gravity)
+                         : 0.0008 * model.mean_diameter / model.time_step;
+}
 
 double tolerance(const scene::NumberOrName& value, double automatic)
 {
@@ -27,9 +98,8 @@ Stabilisation stabilisation_of(const scene::SolverTable& table)
     return table.stabilisation == "matched" ? Stabilisation::matched : Stabilisation::projected;
 }
 
-SolverSettings build_solver(const scene::Scene& scene, const RunSetting& setting)
+SolverSettings build_solver(const scene::SolverTable& table, const RunSetting& setting)
 {
-    const auto& table = scene.solver;
     SolverSettings solver;
     solver.stabilisation = stabilisation_of(table);
     const int usual_sweeps = solver.stabilisation == Stabilisation::matched ? 2 : 3;
@@ -42,18 +112,25 @@ SolverSettings build_solver(const scene::Scene& scene, const RunSetting& setting
             "'max_sweeps' must be at least the " + std::to_string(solver.min_sweeps) + " of 'min_sweeps'");
     solver.tolerance = tolerance(table.tolerance, setting.tolerance);
     solver.relaxation = table.relaxation;
-    solver.restitution_threshold = table.restitution_threshold;
+    const auto& scaling = table.pressure_scaling;
+    if (scaling.name != "auto" && scaling.on && solver.stabilisation == Stabilisation::matched)
+        throw SceneError("solver.pressure_scaling",
+            "pressure scaling goes with stabilisation \"projected\" only; with \"matched\" contacts are too soft "
+            "for it to matter");
     return solver;
 }
 
-double push_out_speed(const scene::Scene& scene, const Model& model)
+SolverSettings complete_solver(SolverSettings solver, const scene::SolverTable& table, const Simulation& simulation)
 {
-    const auto& given = scene.solver.push_out_speed;
-    if (given.name != "auto") return given.number;
-    const double gravity = model.gravity.norm();
-    // Without gravity what it is with gravity at the automatic step h = 0.008 √(d/gravity).
-    return gravity > 0.0 ? 0.1 * std::sqrt(model.mean_diameter * gravity)
-                         : 0.0008 * model.mean_diameter / model.time_step;
+    const Model& model = simulation.model;
+    solver.push_out_speed = push_out_speed(table.push_out_speed, model);
+    if (solver.stabilisation != Stabilisation::projected) return solver;
+    const Contents all = contents_of(simulation);
+    const double depth = depth_of(all, model);
+    solver.pressure_scaling = pressure_is_scaled(table.pressure_scaling, all, depth, model);
+    if (solver.pressure_scaling && depth >= very_deep && table.min_sweeps == 0)
+        solver.min_sweeps = std::clamp(sweeps_in_very_deep, solver.min_sweeps, solver.max_sweeps);
+    return solver;
 }
 
 } // namespace talus

@@ -1,22 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/world/model.hpp"
-#include "scenarios/build/accuracy.hpp"
 #include "scenarios/scene.hpp"
+#include "scenarios/simulation.hpp"
 
 namespace talus
 {
 
+/// What decides how wrong a run is, and how long it takes.
+struct RunSetting {
+    double step_factor = 1.0; ///< on the time step that gravity allows (step_choice.hpp)
+    int min_sweeps = 0;       ///< 0: the usual number
+    double tolerance = 1e-2;
+};
+
 /// The law that a scene names.
 Stabilisation stabilisation_of(const scene::SolverTable& table);
 
-/// The settings of the solver, names replaced by numbers, but for the push-out speed.
+/// The settings of the solver as far as the table says, names replaced by numbers.
 /// @param setting for what the scene leaves open
-/// @throws SceneError where the sweeps have no room
-SolverSettings build_solver(const scene::Scene& scene, const RunSetting& setting);
+/// @throws SceneError where the sweeps have no room, and where pressure scaling is asked for with `matched`, whose
+/// contacts are too soft for it to matter
+SolverSettings build_solver(const scene::SolverTable& table, const RunSetting& setting);
 
-/// The cap on the speed with which overlap is undone [m/s]. @param model its step is known too
-double push_out_speed(const scene::Scene& scene, const Model& model);
+/// These settings with what the table leaves to the step and to the spheres.
+///
+/// The cap on the speed with which overlap is undone follows from gravity, or else from the step. Pressure is scaled
+/// with `projected` in a bed of forty grains or more, or where something rests on grains of a tenth of its mass or
+/// less; where no axis is periodic. Beds of a hundred grains or more then take at least six sweeps a step, unless the
+/// scene says how many.
+/// @param simulation its spheres are there, and its model has all but the solver
+SolverSettings complete_solver(SolverSettings solver, const scene::SolverTable& table, const Simulation& simulation);
 
 } // namespace talus

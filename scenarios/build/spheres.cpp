@@ -3,9 +3,6 @@
 
 #include "scenarios/build/checks.hpp"
 #include "scenarios/build/materials.hpp"
-#include "scenarios/build/mixture.hpp"
-#include "scenarios/build/packing.hpp"
-#include "scenarios/build/region.hpp"
 
 #include <cmath>
 
@@ -14,120 +11,87 @@ namespace talus
 namespace
 {
 
-void require_inside_world(const Region& region, double diameter, const Box& world, const std::string& key)
+void require_range(const scene::DiameterTable& table, const std::string& key)
 {
-    constexpr double widest = 1e5; // diameters; a wider region is a slip of units, and would take for ever to fill
-    if (!region.fits(0.5 * diameter)) throw SceneError(key, "the region is smaller than one sphere");
-    if (region.bounds().extent().maxCoeff() > widest * diameter)
-        throw SceneError(key, "the region is more than 100 000 spheres across");
-    if (!world.contains(region.bounds()))
-        throw SceneError(key, "the region reaches out of the world; see [world] min and max");
+    require_positive(table.min, key + ".min", "the smallest diameter");
+    if (!(table.max >= table.min) || !std::isfinite(table.max))
+        throw SceneError(key + ".max", "the largest diameter must not be below the smallest");
 }
 
-/// The spheres of a lattice or of a random packing.
-std::vector<PackedSphere> packed_spheres(const scene::FillTable& table, const std::string& key, const Model& model,
-    const std::vector<PackedSphere>& placed, Random& random)
+/// A normal or lognormal distribution between min and max, which must not cut all but its tail away: the diameters
+/// would have little to do with the mean or median that the scene asks for.
+SizeDistribution cut_distribution(const scene::DiameterTable& table, const std::string& key)
 {
-    const auto mixture = build_mixture(table, key, model.materials);
-    const auto region = build_region(table.region, key + ".region");
-    require_inside_world(region, mixture.max_diameter(), model.world, key + ".region");
-    const bool lattice = table.arrangement == "lattice";
-    auto spheres = lattice ? lattice_packing(region, mixture, table.count, table.spacing, placed, model, random)
-                           : random_packing(region, mixture, table.count, placed, model, random);
-    if (static_cast<std::int64_t>(spheres.size()) < table.count)
-        throw SceneError(key + ".region",
-            "the region holds " + std::to_string(spheres.size()) +
-                " spheres of this size clear of walls and earlier fills, not " + std::to_string(table.count) +
-                (lattice ? "; make it larger, or lower 'count' or 'spacing'"
-                         : "; make it larger, lower 'count', or use arrangement \"lattice\""));
-    return spheres;
+    constexpr double least_share = 0.01;
+    const bool normal = table.distribution == "normal";
+    require_range(table, key);
+    require_positive(table.deviation, key + ".deviation", "the standard deviation");
+    if (normal)
+        require_positive(table.mean, key + ".mean", "the mean diameter");
+    else
+        require_positive(table.median, key + ".median", "the median diameter");
+    if (table.max == table.min)
+        throw SceneError(key + ".max", "'max' must be above 'min'; for one size use distribution \"constant\"");
+    const SizeDistribution sizes{.min = table.min,
+        .max = table.max,
+        .law = normal ? SizeDistribution::Law::normal : SizeDistribution::Law::lognormal,
+        .center = normal ? table.mean : std::log(table.median),
+        .spread = table.deviation};
+    if (!(sizes.share_inside() >= least_share))
+        throw SceneError(key + ".min",
+            "less than 1 % of the " + table.distribution + " distribution lies between 'min' and 'max'; widen them");
+    return sizes;
 }
 
-/// The spheres that a file lists.
-std::vector<PackedSphere> listed_spheres(const scene::FillTable& table, const std::string& key, const Model& model)
+SizeDistribution build_sizes(const scene::DiameterTable& table, const std::string& key)
 {
-    const auto& positions = table.spheres.positions;
-    if (table.count != 0 && table.count != static_cast<std::int64_t>(positions.size()))
-        throw SceneError(key + ".count", "the file has " + std::to_string(positions.size()) + " spheres, not " +
-                                             std::to_string(table.count) + "; leave 'count' out to take them all");
-    if (table.material.empty()) throw SceneError(key + ".material", "give the 'material' of the file's spheres");
-    const int material = material_index(model.materials, table.material, key + ".material");
-    const auto radii = radii_from_file(table, key);
-    std::vector<PackedSphere> spheres;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        if (!model.world.contains(positions[i]))
-            throw SceneError(key + ".file",
-                "sphere " + std::to_string(i) + " of the file lies outside of the world; see [world] min and max");
-        spheres.push_back({positions[i], radii[i], material});
+    if (table.distribution == "constant") {
+        require_positive(table.value, key + ".value", "the diameter");
+        return {.min = table.value, .max = table.value};
     }
-    return spheres;
-}
-
-/// Element i of a list of the file's that may be missing.
-Vec3 listed(const std::vector<Vec3>& list, std::size_t i)
-{
-    return list.empty() ? Vec3::Zero() : list[i];
-}
-
-void fill(Simulation& simulation, const scene::FillTable& table, const std::string& key, Random& random,
-    std::vector<PackedSphere>& placed)
-{
-    const auto& model = simulation.model;
-    const auto spheres = table.arrangement == "file" ? listed_spheres(table, key, model)
-                                                     : packed_spheres(table, key, model, placed, random);
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-        const auto& s = spheres[i];
-        add_sphere(simulation.state, s.center, s.radius,
-            model.materials.list[static_cast<std::size_t>(s.material)].density, s.material,
-            table.velocity + listed(table.spheres.velocities, i),
-            table.angular_velocity + listed(table.spheres.angular_velocities, i));
+    if (table.distribution == "sieve") {
+        if (table.sieve_sizes.size() < 2)
+            throw SceneError(key + ".file", "a distribution \"sieve\" needs a file with two sieves at least");
+        return sieved_sizes(table.sieve_sizes, table.sieve_passing);
     }
-    placed.insert(placed.end(), spheres.begin(), spheres.end());
+    if (table.distribution != "uniform") return cut_distribution(table, key);
+    require_range(table, key);
+    return {.min = table.min, .max = table.max};
 }
 
-/// @param name of a key, @param other that which may stand for it
-void require_one(double value, double other, const std::string& key, const std::string& name, const std::string& both)
+Species build_species(const std::string& material, const scene::DiameterTable& diameter, const std::string& key,
+    const Materials& materials)
 {
-    if (value > 0.0 && other > 0.0) throw SceneError(key + "." + name, "give " + both + ", not both of them");
-    if (!(value > 0.0) && !(other > 0.0))
-        throw SceneError(key + "." + name, "a pour needs " + both + ", greater than 0");
+    return {material_index(materials, material, key + ".material"), build_sizes(diameter, key + ".diameter"), 1.0};
 }
 
-Pour build_pour(const scene::PourTable& table, std::size_t index, const Model& model, std::uint64_t seed)
+/// What a fill or a pour is made of: its species, or its one material and diameter, but not both.
+template <class Table> Mixture build_mixture(const Table& table, const std::string& key, const Materials& materials)
 {
-    const auto key = table_path("pour", index);
-    Pour pour = build_source(table, key, model.materials);
-    pour.name = table.name.empty() ? "pour " + std::to_string(index) : table.name;
-    pour.region = build_region(table.region, key + ".region");
-    require_inside_world(pour.region, pour.mixture.max_diameter(), model.world, key + ".region");
-    pour.velocity = table.velocity;
-    pour.start = table.start;
-    pour.random.seed(seed);
-    return pour;
+    if (table.species.empty()) {
+        if (table.material.empty())
+            throw SceneError(key + ".material", "give a 'material' and a 'diameter', or a list of 'species'");
+        return {{build_species(table.material, table.diameter, key, materials)}};
+    }
+    if (!table.material.empty() || table.diameter.given())
+        throw SceneError(key + ".species",
+            "where there are 'species', each has its own 'material' and 'diameter': leave out the others");
+    std::vector<Species> species;
+    std::vector<double> mass_shares;
+    for (std::size_t k = 0; k < table.species.size(); ++k) {
+        const auto path = key + "." + table_path("species", k);
+        const auto& one = table.species[k];
+        require_positive(one.share, path + ".share", "the share");
+        species.push_back(build_species(one.material, one.diameter, path, materials));
+        mass_shares.push_back(one.share);
+    }
+    return mixture_by_mass(std::move(species), mass_shares, materials);
 }
 
-} // namespace
-
-Pour build_source(const scene::PourTable& table, const std::string& key, const Materials& materials)
-{
-    require_one(static_cast<double>(table.count), table.mass, key, "count", "'count' or 'mass'");
-    require_one(table.rate, table.mass_rate, key, "rate", "'rate' or 'mass_rate'");
-    Pour pour;
-    pour.mixture = build_mixture(table, key, materials);
-    if (table.count > 0) pour.count = table.count;
-    if (table.mass > 0.0) pour.mass = table.mass;
-    if (table.rate > 0.0) pour.rate = table.rate;
-    if (table.mass_rate > 0.0) pour.mass_rate = table.mass_rate;
-    constexpr double most = 1e8; // as for a count
-    if (!(expected_count(pour, materials) <= most))
-        throw SceneError(key + ".mass", "this mass is that of more than 100 million spheres");
-    return pour;
-}
-
-std::vector<double> radii_from_file(const scene::FillTable& table, const std::string& key)
+/// The radius of each sphere of a file [m]: the file's own, or else that of the fill's diameter.
+std::vector<double> listed_radii(const scene::FillTable& table, const std::string& key)
 {
     const auto& listed = table.spheres;
-    if (listed.positions.empty()) throw SceneError(key + ".file", "the fill needs a file with spheres");
     if (!listed.radii.empty()) {
         if (table.diameter.given())
             throw SceneError(key + ".diameter", "the file has the radii of its spheres: leave 'diameter' out");
@@ -138,18 +102,137 @@ std::vector<double> radii_from_file(const scene::FillTable& table, const std::st
     return std::vector<double>(listed.positions.size(), 0.5 * table.diameter.value);
 }
 
-void fill_spheres(Simulation& simulation, const scene::Scene& scene, Random& random)
+std::vector<PackedSphere> listed_spheres(
+    const scene::FillTable& table, const std::string& key, const Materials& materials)
 {
-    std::vector<PackedSphere> placed;
-    for (std::size_t k = 0; k < scene.fill.size(); ++k)
-        fill(simulation, scene.fill[k], table_path("fill", k), random, placed);
+    const auto& positions = table.spheres.positions;
+    if (positions.empty()) throw SceneError(key + ".file", "the fill needs a file with spheres");
+    if (table.count != 0 && table.count != static_cast<std::int64_t>(positions.size()))
+        throw SceneError(key + ".count", "the file has " + std::to_string(positions.size()) + " spheres, not " +
+                                             std::to_string(table.count) + "; leave 'count' out to take them all");
+    if (table.material.empty()) throw SceneError(key + ".material", "give the 'material' of the file's spheres");
+    const int material = material_index(materials, table.material, key + ".material");
+    const auto radii = listed_radii(table, key);
+    std::vector<PackedSphere> spheres;
+    for (std::size_t i = 0; i < positions.size(); ++i) spheres.push_back({positions[i], radii[i], material});
+    return spheres;
 }
 
-std::vector<Pour> build_pours(const scene::Scene& scene, const Model& model, Random& random)
+/// Of a count or rate and the mass that may stand for it, a pour has one.
+void require_one(double value, double other, const std::string& key, const std::string& both)
+{
+    if (value > 0.0 && other > 0.0) throw SceneError(key, "give " + both + ", not both of them");
+    if (!(value > 0.0) && !(other > 0.0)) throw SceneError(key, "a pour needs " + both + ", greater than 0");
+}
+
+Pour build_pour(const scene::PourTable& table, std::size_t index, const Materials& materials)
+{
+    const auto key = table_path("pour", index);
+    require_one(static_cast<double>(table.count), table.mass, key + ".count", "'count' or 'mass'");
+    require_one(table.rate, table.mass_rate, key + ".rate", "'rate' or 'mass_rate'");
+    Pour pour;
+    pour.name = table.name.empty() ? "pour " + std::to_string(index) : table.name;
+    pour.mixture = build_mixture(table, key, materials);
+    if (table.count > 0) pour.count = table.count;
+    if (table.mass > 0.0) pour.mass = table.mass;
+    if (table.rate > 0.0) pour.rate = table.rate;
+    if (table.mass_rate > 0.0) pour.mass_rate = table.mass_rate;
+    constexpr double most = 1e8; // as for a count
+    if (!(expected_count(pour, materials) <= most))
+        throw SceneError(key + ".mass", "this mass is that of more than 100 million spheres");
+    pour.region = require_region(table.region, key + ".region");
+    pour.velocity = table.velocity;
+    pour.start = table.start;
+    return pour;
+}
+
+/// @param diameter of the largest sphere to come into the region [m]
+void require_inside(const Box& world, const Region& region, double diameter, const std::string& key)
+{
+    constexpr double widest = 1e5; // diameters; a wider region is a slip of units, and would take for ever to fill
+    if (!region.fits(0.5 * diameter)) throw SceneError(key, "the region is smaller than one sphere");
+    if (region.bounds().extent().maxCoeff() > widest * diameter)
+        throw SceneError(key, "the region is more than 100 000 spheres across");
+    if (!world.contains(region.bounds()))
+        throw SceneError(key, "the region reaches out of the world; see [world] min and max");
+}
+
+/// The spheres of a lattice or of a random packing. @param placed those of earlier fills
+std::vector<PackedSphere> packed_spheres(
+    const Fill& fill, const Model& model, const std::vector<PackedSphere>& placed, Random& random)
+{
+    const std::int64_t count = fill.table.count;
+    const bool lattice = fill.table.arrangement == "lattice";
+    auto spheres = lattice
+                       ? lattice_packing(fill.region, fill.mixture, count, fill.table.spacing, placed, model, random)
+                       : random_packing(fill.region, fill.mixture, count, placed, model, random);
+    if (static_cast<std::int64_t>(spheres.size()) < count)
+        throw SceneError(fill.key + ".region",
+            "the region holds " + std::to_string(spheres.size()) +
+                " spheres of this size clear of walls and earlier fills, not " + std::to_string(count) +
+                (lattice ? "; make it larger, or lower 'count' or 'spacing'"
+                         : "; make it larger, lower 'count', or use arrangement \"lattice\""));
+    return spheres;
+}
+
+/// Element i of a list of the file's that may be missing.
+Vec3 listed(const std::vector<Vec3>& list, std::size_t i)
+{
+    return list.empty() ? Vec3::Zero() : list[i];
+}
+
+} // namespace
+
+std::vector<Fill> build_fills(const scene::Scene& scene, const Materials& materials)
+{
+    std::vector<Fill> fills;
+    for (std::size_t k = 0; k < scene.fill.size(); ++k) {
+        Fill fill{.key = table_path("fill", k), .table = scene.fill[k], .mixture = {}, .region = {}, .listed = {}};
+        if (fill.of_file()) {
+            fill.listed = listed_spheres(fill.table, fill.key, materials);
+        } else {
+            fill.mixture = build_mixture(fill.table, fill.key, materials);
+            fill.region = require_region(fill.table.region, fill.key + ".region");
+        }
+        fills.push_back(std::move(fill));
+    }
+    return fills;
+}
+
+std::vector<Pour> build_pours(const scene::Scene& scene, const Materials& materials)
 {
     std::vector<Pour> pours;
-    for (std::size_t k = 0; k < scene.pour.size(); ++k) pours.push_back(build_pour(scene.pour[k], k, model, random()));
+    for (std::size_t k = 0; k < scene.pour.size(); ++k) pours.push_back(build_pour(scene.pour[k], k, materials));
     return pours;
+}
+
+void require_inside_world(const std::vector<Fill>& fills, const std::vector<Pour>& pours, const Box& world)
+{
+    for (const Fill& fill : fills) {
+        if (!fill.of_file()) require_inside(world, fill.region, fill.mixture.max_diameter(), fill.key + ".region");
+        for (std::size_t i = 0; i < fill.listed.size(); ++i)
+            if (!world.contains(fill.listed[i].center))
+                throw SceneError(fill.key + ".file",
+                    "sphere " + std::to_string(i) + " of the file lies outside of the world; see [world] min and max");
+    }
+    for (std::size_t k = 0; k < pours.size(); ++k)
+        require_inside(world, pours[k].region, pours[k].mixture.max_diameter(), key_path("pour", k, "region"));
+}
+
+void place_spheres(State& state, const std::vector<Fill>& fills, const Model& model, Random& random)
+{
+    std::vector<PackedSphere> placed;
+    for (const Fill& fill : fills) {
+        const auto spheres = fill.of_file() ? fill.listed : packed_spheres(fill, model, placed, random);
+        const scene::SphereList& file = fill.table.spheres;
+        for (std::size_t i = 0; i < spheres.size(); ++i) {
+            const auto& s = spheres[i];
+            add_sphere(state, s.center, s.radius, model.materials.list[static_cast<std::size_t>(s.material)].density,
+                s.material, fill.table.velocity + listed(file.velocities, i),
+                fill.table.angular_velocity + listed(file.angular_velocities, i));
+        }
+        placed.insert(placed.end(), spheres.begin(), spheres.end());
+    }
 }
 
 } // namespace talus

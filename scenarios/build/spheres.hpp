@@ -2,25 +2,34 @@
 #pragma once
 
 #include "core/supply/pour.hpp"
+#include "scenarios/build/packing.hpp"
 #include "scenarios/scene.hpp"
-#include "scenarios/simulation.hpp"
 
 namespace talus
 {
 
+/// A fill that was read and checked, before its spheres are there.
+struct Fill {
+    std::string key;                  ///< its path, for errors: "fill[0]"
+    const scene::FillTable& table;    ///< what is taken as it is: count, arrangement, spacing, velocities
+    Mixture mixture;                  ///< what a packing is made of; that of a file has no species
+    Region region;                    ///< where a packing is to be; of a file: none
+    std::vector<PackedSphere> listed; ///< the spheres of a file, in its order
+
+    bool of_file() const { return table.arrangement == "file"; }
+};
+
+/// The fills in the order of the scene, which must outlive them. @throws SceneError
+std::vector<Fill> build_fills(const scene::Scene& scene, const Materials& materials);
+
+/// The pours in the order of the scene; their random generators are still to be seeded. @throws SceneError
+std::vector<Pour> build_pours(const scene::Scene& scene, const Materials& materials);
+
+/// @throws SceneError where a fill or a pour has no room for a sphere, reaches out of the world, or is far too wide
+void require_inside_world(const std::vector<Fill>& fills, const std::vector<Pour>& pours, const Box& world);
+
 /// Puts the spheres of all fills into the state, in the order of the scene.
-/// @throws SceneError where a region cannot hold them
-void fill_spheres(Simulation& simulation, const scene::Scene& scene, Random& random);
-
-/// The pours in the order of the scene, each with a random generator of its own. @throws SceneError
-std::vector<Pour> build_pours(const scene::Scene& scene, const Model& model, Random& random);
-
-/// A pour without its place: what it pours, how much and how fast.
-/// @param key its path, for errors; @throws SceneError
-Pour build_source(const scene::PourTable& table, const std::string& key, const Materials& materials);
-
-/// The radius of each sphere that the file of a fill lists [m]: the file's own, or else that of the fill's diameter.
-/// @param key the path of the fill, for errors; @throws SceneError where it has none, or both
-std::vector<double> radii_from_file(const scene::FillTable& table, const std::string& key);
+/// @param model its walls and its world are known; @throws SceneError where a region cannot hold them
+void place_spheres(State& state, const std::vector<Fill>& fills, const Model& model, Random& random);
 
 } // namespace talus

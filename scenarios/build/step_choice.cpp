@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/build/step_choice.hpp"
 
-#include "core/contacts/law.hpp"
-#include "scenarios/build/piston_speed.hpp"
-#include "scenarios/build/wall_speed.hpp"
 #include "scenarios/scene_error.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
-#include <set>
 
 namespace talus
 {
@@ -19,14 +14,8 @@ namespace
 
 constexpr double gravity_share = 0.008; ///< h / √(d/g); 0.003 is fine, above 0.016 only if the scene insists
 constexpr double longest_move = 0.1;    ///< diameters in a step
+constexpr double beyond_sense = 10.0;   ///< times as fast as anything should come to be
 constexpr double level = 0.99;          ///< cosine of the steepest plane on which spheres come to rest for sure
-
-template <class... Numbers> std::string text(const char* format, Numbers... numbers)
-{
-    char buffer[300];
-    std::snprintf(buffer, sizeof buffer, format, numbers...);
-    return buffer;
-}
 
 /// The lowest point of the world, which may be open upwards.
 double lowest_corner(const Box& world, const Vec3& up)
@@ -79,23 +68,77 @@ double fall_height(const Simulation& simulation)
     return std::max(0.0, highest - lowest);
 }
 
+/// The fastest that a part of a motion ever moves a point of the box [m/s].
+double top_speed(const Translation& part, const Box&)
+{
+    return part.velocity.norm();
+}
+
+double top_speed(const Turning& part, const Box& box)
+{
+    double arm = 0.0;
+    for (const Vec3& x : box.corners()) arm = std::max(arm, part.axis.cross(x - part.point).norm());
+    return std::abs(part.rate) * arm;
+}
+
+double top_speed(const Shaking& part, const Box&)
+{
+    return 2.0 * std::numbers::pi * part.frequency * part.amplitude.norm();
+}
+
+double top_speed(const Course& part, const Box&)
+{
+    double fastest = 0.0;
+    for (std::size_t k = 1; k < part.waypoints.size(); ++k) {
+        const auto &from = part.waypoints[k - 1], &to = part.waypoints[k];
+        fastest = std::max(fastest, (to.shift - from.shift).norm() / (to.time - from.time));
+    }
+    return fastest;
+}
+
+/// The most that any part of a wall's motion ever does, as far as the wall lies where spheres may be [m/s]. Parts that
+/// go on at the same time are not added up: a step in which something is faster than this is split.
+double fastest_wall(const Simulation& simulation)
+{
+    Box spheres;
+    for (const Vec3& x : simulation.state.position) spheres.extend(x);
+    for (const auto& pour : simulation.pours) spheres.extend(pour.region.bounds());
+    double fastest = 0.0;
+    for (const auto& wall : simulation.model.walls) {
+        // A plane is looked at where the spheres are, any other wall at the corners of its box.
+        const Box own = bounds(wall.shape);
+        const Box& box = own.empty() ? spheres : own;
+        if (box.empty()) continue;
+        for (const auto& part : wall.motion)
+            fastest = std::max(fastest, std::visit([&](const auto& p) { return top_speed(p, box); }, part));
+    }
+    return fastest;
+}
+
+/// What a piston would have if all it weighs and bears drove it across the whole scene [m/s].
+double fastest_piston(const Simulation& simulation)
+{
+    const Model& model = simulation.model;
+    Box scene;
+    for (const Wall& wall : model.walls) scene.extend(bounds(wall.shape));
+    for (const Vec3& x : simulation.state.position) scene.extend(x);
+    double fastest = 0.0;
+    for (const Piston& piston : model.pistons) {
+        double load = 0.0;
+        for (const LoadPoint& point : piston.load) load = std::max(load, std::abs(point.force));
+        const double gain = std::abs(piston.guide.dot(model.gravity)) + load / piston.mass;
+        fastest = std::max(fastest, std::sqrt(2.0 * gain * scene.extent().dot(piston.guide.cwiseAbs())));
+    }
+    return fastest;
+}
+
 double fastest_speed(const Simulation& simulation)
 {
     double start = 0.0;
     for (const auto& m : simulation.state.motion) start = std::max({start, m.velocity.norm(), m.rim_velocity.norm()});
     for (const auto& pour : simulation.pours) start = std::max(start, pour.velocity.norm());
     const double fall_gravity = std::abs(simulation.model.gravity.dot(simulation.model.up()));
-    return std::sqrt(start * start + 2.0 * fall_gravity * fall_height(simulation)) + fastest_wall(simulation) +
-           fastest_piston(simulation);
-}
-
-/// The materials that spheres are made of, now or later.
-std::set<int> sphere_materials(const Simulation& simulation)
-{
-    std::set<int> materials(simulation.state.material.begin(), simulation.state.material.end());
-    for (const auto& pour : simulation.pours)
-        for (const auto& species : pour.mixture.species) materials.insert(species.material);
-    return materials;
+    return std::sqrt(start * start + 2.0 * fall_gravity * fall_height(simulation)) + fastest_wall(simulation);
 }
 
 } // namespace
@@ -104,50 +147,19 @@ StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation, 
 {
     const auto& model = simulation.model;
     StepChoice choice;
-    choice.fastest_speed = fastest_speed(simulation);
-    const double share = factor * gravity_share;
-    const double from_gravity = share * std::sqrt(model.min_diameter / model.gravity.norm());
-    const double from_speed = longest_move * model.min_diameter / choice.fastest_speed;
-    const double automatic = std::min(from_gravity, from_speed);
-    if (scene.time.step.name != "auto") {
-        choice.step = scene.time.step.number;
-        choice.explanation =
-            text("step %.4g ms: given by the scene (auto would be %.4g ms)", 1e3 * choice.step, 1e3 * automatic);
-        return choice;
-    }
-    if (!std::isfinite(automatic))
+    const double fastest = fastest_speed(simulation), piston = fastest_piston(simulation);
+    // With gravity pistons are too fast for its step for moments only, in which steps are split; without, one may be
+    // all that moves.
+    choice.fastest_speed = model.gravity.isZero() ? fastest + piston : fastest;
+    choice.gravity_share = factor * gravity_share;
+    choice.by_gravity = choice.gravity_share * std::sqrt(model.min_diameter / model.gravity.norm());
+    choice.by_speed = longest_move * model.min_diameter / choice.fastest_speed;
+    choice.given = scene.time.step.name != "auto";
+    choice.step = choice.given ? scene.time.step.number : choice.automatic();
+    if (!std::isfinite(choice.step))
         throw SceneError("time.step", "without gravity and speeds there is no automatic step: give one in seconds");
-    choice.step = automatic;
-    choice.explanation =
-        from_gravity <= from_speed
-            ? text("step %.4g ms = %.3g sqrt(d/g) for the smallest d = %.4g mm (the fastest fall, %.3g m/s, moves "
-                   "%.2g d in it)",
-                  1e3 * automatic, share, 1e3 * model.min_diameter, choice.fastest_speed,
-                  choice.fastest_speed * automatic / model.min_diameter)
-            : text("step %.4g ms: the fastest sphere, %.3g m/s, moves 0.1 d in it (%.3g sqrt(d/g) would be %.4g ms)",
-                  1e3 * automatic, choice.fastest_speed, share, 1e3 * from_gravity);
+    choice.speed_limit = beyond_sense * (fastest + piston) + model.min_diameter / choice.step;
     return choice;
-}
-
-std::string forecast_overlap(const Simulation& simulation)
-{
-    const auto& model = simulation.model;
-    if (model.solver.stabilisation == Stabilisation::projected)
-        return "contacts are rigid; spheres that overlap are moved apart after each step";
-    const double h = model.time_step, d = model.mean_diameter;
-    const auto n = model.solver.min_sweeps;
-    double density = 0.0, stiffness = infinity;
-    for (const int a : sphere_materials(simulation)) {
-        density = std::max(density, model.materials.list[static_cast<std::size_t>(a)].density);
-        for (const int b : sphere_materials(simulation))
-            stiffness = std::min(stiffness, model.materials.between(a, b).stiffness);
-    }
-    const double inverse_mass_sum = 2.0 / (density * std::numbers::pi / 6.0 * d * d * d);
-    stiffness = std::min(stiffness, 4.0 * upsilon / (sigma_per_sweep / n * inverse_mass_sum * h * h));
-    const double of_layer = 0.4 * model.gravity.norm() * h * h / (n * d);
-    return text("contacts of two spheres are at most %.3g N/m stiff; a bed Z diameters high overlaps by %.2g Z d on "
-                "average, twice that at its bottom",
-        stiffness, of_layer);
 }
 
 } // namespace talus

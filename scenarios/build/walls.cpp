@@ -50,6 +50,14 @@ Shape build_shape(const scene::WallTable& w, std::size_t index)
     return Cone{w.base, axis, w.base_radius, w.top_radius, w.height};
 }
 
+/// @param rows of a table, each with its time
+void require_rising(const auto& rows, const std::string& key, const std::string& table)
+{
+    const auto falls_back = [](const auto& row, const auto& next) { return !(next.time > row.time); };
+    if (std::ranges::adjacent_find(rows, falls_back) != rows.end())
+        throw SceneError(key + "." + table, "the times of '" + table + "' must rise from row to row");
+}
+
 MotionPart build_motion_part(const scene::MotionTable& m, const std::string& key)
 {
     if (m.kind != "table" && !(m.to >= m.from)) throw SceneError(key + ".to", "'to' must not be before 'from'");
@@ -58,9 +66,7 @@ MotionPart build_motion_part(const scene::MotionTable& m, const std::string& key
     if (m.kind == "turn") return Turning{span, m.point, unit_vector(m.axis, key + ".axis"), m.rate};
     if (m.kind == "shake") return Shaking{span, m.amplitude, m.frequency};
     if (m.table.empty()) throw SceneError(key + ".table", "'table' needs at least one row [time, x, y, z]");
-    const auto falls_back = [](const auto& row, const auto& next) { return !(next.time > row.time); };
-    if (std::ranges::adjacent_find(m.table, falls_back) != m.table.end())
-        throw SceneError(key + ".table", "the times of 'table' must rise from row to row");
+    require_rising(m.table, key, "table");
     return Course{m.table};
 }
 
@@ -114,20 +120,10 @@ void require_piston(const scene::WallTable& w, std::size_t index)
         throw SceneError(key("guide"), "a wall of finite mass needs a 'guide', the axis along which it moves");
 }
 
-std::vector<LoadPoint> build_load(const scene::WallTable& w, std::size_t index)
-{
-    std::vector<LoadPoint> load;
-    for (const auto& row : w.load) {
-        if (!load.empty() && !(row.time > load.back().time))
-            throw SceneError(key_path("wall", index, "load"), "the times of 'load' must rise from row to row");
-        load.push_back({row.time, row.force});
-    }
-    return load;
-}
-
 Piston build_piston(const scene::WallTable& w, std::size_t index, const Shape& shape, const Periodicity& periodicity)
 {
     require_piston(w, index);
+    require_rising(w.load, table_path("wall", index), "load");
     const Box box = bounds(shape);
     const Vec3 guide = unit_vector(w.guide, key_path("wall", index, "guide"));
     for (int d = 0; d < 3; ++d)
@@ -138,7 +134,7 @@ Piston build_piston(const scene::WallTable& w, std::size_t index, const Shape& s
         .guide = guide,
         .center = box.center(),
         .inertia = block_inertia(w.mass, box.extent()),
-        .load = build_load(w, index),
+        .load = w.load,
         .released_at = w.released_at};
 }
 

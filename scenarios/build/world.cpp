@@ -2,10 +2,6 @@
 #include "scenarios/build/world.hpp"
 
 #include "scenarios/build/checks.hpp"
-#include "scenarios/build/mixture.hpp"
-#include "scenarios/build/region.hpp"
-#include "scenarios/build/spheres.hpp"
-#include "scenarios/scene_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +9,7 @@
 namespace talus
 {
 
-void find_diameters(Model& model, const scene::Scene& scene)
+void find_diameters(Model& model, const std::vector<Fill>& fills, const std::vector<Pour>& pours)
 {
     double sum = 0.0, count = 0.0;
     model.min_diameter = infinity;
@@ -27,36 +23,29 @@ void find_diameters(Model& model, const scene::Scene& scene)
     const auto add_mixture = [&](const Mixture& mixture, double number) {
         add(mixture.min_diameter(), mixture.max_diameter(), mixture.mean_diameter(), number);
     };
-    for (std::size_t k = 0; k < scene.fill.size(); ++k) {
-        const auto& fill = scene.fill[k];
-        const auto key = table_path("fill", k);
-        if (fill.arrangement == "file")
-            for (const double radius : radii_from_file(fill, key)) add(2.0 * radius, 2.0 * radius, 2.0 * radius, 1.0);
-        else
-            add_mixture(build_mixture(fill, key, model.materials), static_cast<double>(fill.count));
+    for (const Fill& fill : fills) {
+        for (const auto& [center, radius, material] : fill.listed) add(2.0 * radius, 2.0 * radius, 2.0 * radius, 1.0);
+        if (!fill.of_file()) add_mixture(fill.mixture, static_cast<double>(fill.table.count));
     }
-    for (std::size_t k = 0; k < scene.pour.size(); ++k) {
-        const Pour source = build_source(scene.pour[k], table_path("pour", k), model.materials);
-        add_mixture(source.mixture, expected_count(source, model.materials));
-    }
+    for (const Pour& pour : pours) add_mixture(pour.mixture, expected_count(pour, model.materials));
     if (count == 0.0)
         throw SceneError("fill", "the scene has no spheres: give a [[fill]] or a [[pour]] with a count above 0");
     model.mean_diameter = sum / count;
 }
 
-Periodicity build_periodicity(const scene::Scene& scene, double max_diameter)
+Periodicity build_periodicity(const scene::WorldTable& table, double max_diameter)
 {
     constexpr double shortest = 4.0; // diameters: a sphere must not meet two images of another
     Periodicity periodicity;
-    for (const auto& name : scene.world.periodic) {
+    for (const auto& name : table.periodic) {
         const int d = name[0] - 'x';
-        const double length = scene.world.max[d] - scene.world.min[d];
+        const double length = table.max[d] - table.min[d];
         if (!std::isfinite(length))
             throw SceneError("world.periodic", "along the periodic axis " + name + " 'min' and 'max' must be given");
         if (length < shortest * max_diameter)
             throw SceneError("world.periodic",
                 "along the periodic axis " + name + " the world must be at least four diameters of the largest sphere");
-        periodicity.origin[d] = scene.world.min[d];
+        periodicity.origin[d] = table.min[d];
         periodicity.length[d] = length;
     }
     if (periodicity.along(0) && periodicity.along(1) && periodicity.along(2))
@@ -85,25 +74,20 @@ struct Content {
 };
 
 /// Walls, on their ways so far, fills, pours and outlets.
-std::vector<Content> contents(const scene::Scene& scene, const Model& model, double duration)
+std::vector<Content> contents(
+    const Model& model, const std::vector<Fill>& fills, const std::vector<Pour>& pours, double duration)
 {
     std::vector<Content> list;
     for (std::size_t k = 0; k < model.walls.size(); ++k)
         if (const Box b = swept_bounds(model.walls[k], duration); !b.empty())
             list.push_back({key_path("wall", k, "name"), b});
-    for (std::size_t k = 0; k < scene.fill.size(); ++k) {
-        const auto& fill = scene.fill[k];
-        if (fill.arrangement != "file") {
-            const std::string key = key_path("fill", k, "region");
-            list.push_back({key, build_region(fill.region, key).bounds()});
-        }
-        for (const Vec3& position : fill.spheres.positions)
-            list.push_back({key_path("fill", k, "file"), Box{position, position}});
+    for (const Fill& fill : fills) {
+        if (!fill.of_file()) list.push_back({fill.key + ".region", fill.region.bounds()});
+        for (const PackedSphere& sphere : fill.listed)
+            list.push_back({fill.key + ".file", Box{sphere.center, sphere.center}});
     }
-    for (std::size_t k = 0; k < scene.pour.size(); ++k) {
-        const std::string key = key_path("pour", k, "region");
-        list.push_back({key, build_region(scene.pour[k].region, key).bounds()});
-    }
+    for (std::size_t k = 0; k < pours.size(); ++k)
+        list.push_back({key_path("pour", k, "region"), pours[k].region.bounds()});
     for (std::size_t k = 0; k < model.outlets.size(); ++k)
         list.push_back({key_path("outlet", k, "region"), model.outlets[k].bounds()});
     return list;
@@ -131,23 +115,25 @@ void require_within_reach(const std::vector<Content>& list, double diameter)
 
 } // namespace
 
-Vec3 scene_corner(const scene::Scene& scene, const Model& model)
+Vec3 scene_corner(const Model& model, const std::vector<Fill>& fills, const std::vector<Pour>& pours)
 {
-    const auto list = contents(scene, model, 0.0);
+    const auto list = contents(model, fills, pours, 0.0);
     require_within_reach(list, model.mean_diameter);
     return list.empty() ? Vec3::Zero() : around(list).min;
 }
 
-Box build_world(const scene::Scene& scene, const Model& model)
+Box build_world(
+    const scene::Scene& scene, const Model& model, const std::vector<Fill>& fills, const std::vector<Pour>& pours)
 {
-    if (!((scene.world.min.array() < scene.world.max.array()).all()))
+    const Vec3 &min = scene.world.min, &max = scene.world.max;
+    if (!((min.array() < max.array()).all()))
         throw SceneError("world.max", "the world is empty: every coordinate of 'min' must be below that of 'max'");
-    Box box = around(contents(scene, model, scene.time.duration)).grown(5.0 * model.max_diameter);
+    Box box = around(contents(model, fills, pours, scene.time.duration)).grown(5.0 * model.max_diameter);
     for (int d = 0; d < 3; ++d) {
         if (model.gravity[d] < 0.0) box.max[d] = infinity;
         if (model.gravity[d] > 0.0) box.min[d] = -infinity;
-        if (std::isfinite(scene.world.min[d])) box.min[d] = scene.world.min[d];
-        if (std::isfinite(scene.world.max[d])) box.max[d] = scene.world.max[d];
+        if (std::isfinite(min[d])) box.min[d] = min[d];
+        if (std::isfinite(max[d])) box.max[d] = max[d];
     }
     return box;
 }

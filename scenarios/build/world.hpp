@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/world/model.hpp"
-#include "scenarios/scene.hpp"
+#include "scenarios/build/spheres.hpp"
 
 namespace talus
 {
@@ -10,19 +10,23 @@ namespace talus
 /// The smallest, largest and mean diameter of all spheres that the scene makes, into the model.
 /// @pre the model has its materials
 /// @throws SceneError where it makes none
-void find_diameters(Model& model, const scene::Scene& scene);
+void find_diameters(Model& model, const std::vector<Fill>& fills, const std::vector<Pour>& pours);
 
 /// The periodic axes, from the corners of the world.
 /// @param max_diameter of the spheres [m]
 /// @throws SceneError where a corner is not given or the cell is shorter than four spheres
-Periodicity build_periodicity(const scene::Scene& scene, double max_diameter);
+Periodicity build_periodicity(const scene::WorldTable& table, double max_diameter);
 
 /// The lower corner of walls, fills, pours and outlets as the scene begins, whatever its duration.
+/// @pre the model has its walls, outlets and diameters
 /// @throws SceneError where one of them lies too far from the origin
-Vec3 scene_corner(const scene::Scene& scene, const Model& model);
+Vec3 scene_corner(const Model& model, const std::vector<Fill>& fills, const std::vector<Pour>& pours);
 
 /// The box that no sphere may leave: that of walls, fills, pours and outlets, grown by five diameters and open upwards,
-/// where the scene does not say. @throws SceneError where it is empty
-Box build_world(const scene::Scene& scene, const Model& model);
+/// where the scene does not say.
+/// @pre the model has its gravity, walls, outlets and diameters
+/// @throws SceneError where it is empty
+Box build_world(
+    const scene::Scene& scene, const Model& model, const std::vector<Fill>& fills, const std::vector<Pour>& pours);
 
 } // namespace talus

@@ -83,14 +83,14 @@ void run_steps(benchmark::State& run, Simulation& simulation)
 
 void bed_at_rest(benchmark::State& run)
 {
-    auto simulation = build_scene(silo(run.range(0), infinity));
+    auto simulation = build_scene(silo(run.range(0), infinity)).simulation;
     while (simulation.state.time < 0.4) advance(simulation);
     run_steps(run, simulation);
 }
 
 void discharge(benchmark::State& run)
 {
-    auto simulation = build_scene(silo(run.range(0), 0.3));
+    auto simulation = build_scene(silo(run.range(0), 0.3)).simulation;
     while (simulation.state.time < 0.5) advance(simulation);
     run_steps(run, simulation);
 }
@@ -101,7 +101,7 @@ void discharge_with(benchmark::State& run, double friction, bool rotation)
     auto scene = silo(10000, 0.3);
     scene.contact[0].friction = friction;
     scene.world.rotation = rotation;
-    auto simulation = build_scene(scene);
+    auto simulation = build_scene(scene).simulation;
     while (simulation.state.time < 0.5) advance(simulation);
     run_steps(run, simulation);
 }

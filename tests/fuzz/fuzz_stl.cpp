@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
         wall.vertices = std::move(soup.vertices);
         wall.triangles = std::move(soup.triangles);
         scene.wall.push_back(wall);
-        auto simulation = talus::build_scene(scene);
+        auto simulation = talus::build_scene(scene).simulation;
         for (int k = 0; k < 3 && talus::step(simulation).incidents.empty(); ++k) {}
     } catch (const talus::InputError&) {
     } catch (const talus::SceneError&) {

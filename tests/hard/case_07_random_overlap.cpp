@@ -45,7 +45,7 @@ Simulation crowded_box(double solid_fraction, double height)
         fill.spheres.radii.push_back(d / 2);
     }
     scene.fill = {fill};
-    return build_scene(scene);
+    return build_scene(scene).simulation;
 }
 
 /// A run of it.

@@ -68,7 +68,7 @@ Simulation gas(double solid_fraction, double restitution)
     }
     for (Vec3& v : spheres.velocities) v -= mean;
     scene.fill = {fill};
-    return build_scene(scene);
+    return build_scene(scene).simulation;
 }
 
 /// Impacts between spheres in the last step.

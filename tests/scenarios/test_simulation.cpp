@@ -13,7 +13,7 @@ namespace
 /// A simulation in which only what the test puts there stands and lies.
 Simulation empty_simulation()
 {
-    auto simulation = build_scene(small_scene());
+    auto simulation = build_scene(small_scene()).simulation;
     simulation.state = State{};
     return simulation;
 }
@@ -31,7 +31,7 @@ TEST_CASE("spheres that touch without overlap are none", "[check_overlaps]")
     add_bead(simulation, Vec3(0.01, 0.01, 0.1));
     add_bead(simulation, Vec3(0.0201, 0.01, 0.1));
     CHECK(check_overlaps(simulation).count == 0);
-    CHECK(check_overlaps(build_scene(small_scene())).count == 0); // as every fill
+    CHECK(check_overlaps(build_scene(small_scene()).simulation).count == 0); // as every fill
 }
 
 TEST_CASE("the worst of several overlaps is told with both spheres", "[check_overlaps]")
@@ -62,8 +62,10 @@ TEST_CASE("an overlap with a wall is told with the wall", "[check_overlaps]")
 
 TEST_CASE("a wall that does not stand yet overlaps nothing", "[check_overlaps]")
 {
-    auto simulation = empty_simulation();
-    simulation.model.walls[0].appear_at = 1.0;
+    auto scene = small_scene();
+    scene.wall[0].appear_at = 1.0;
+    auto simulation = build_scene(scene).simulation;
+    simulation.state = State{};
     add_bead(simulation, Vec3(0.02, 0.02, 0.003));
     CHECK(check_overlaps(simulation).count == 0);
 }
@@ -74,7 +76,7 @@ TEST_CASE("a run that pours and empties keeps its ledger", "[simulation]")
     scene.wall.clear();
     scene.pour.push_back(small_pour());
     scene.outlet = {{"below", box_region(Vec3(-1, -1, -0.2), Vec3(1, 1, -0.05))}};
-    auto simulation = build_scene(scene);
+    auto simulation = build_scene(scene).simulation;
     double inserted_mass = 0.0;
     std::int64_t weighed = 0;
     while (simulation.state.time < 0.4) { // twice the longest fall, of 0.25 m

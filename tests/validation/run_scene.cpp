@@ -18,7 +18,7 @@ Simulation open_scene(const std::string& name, const std::vector<std::string>& o
     const std::filesystem::path root = TALUS_SOURCE_DIR;
     for (const auto* folder : {"tests/hard/scenes", "tests/validation/scenes", "scenarios"}) {
         const auto file = root / folder / (name + ".toml");
-        if (std::filesystem::exists(file)) return build_scene(read_scene(file, overrides).scene);
+        if (std::filesystem::exists(file)) return build_scene(read_scene(file, overrides).scene).simulation;
     }
     throw std::logic_error("no scene " + name);
 }

@@ -56,7 +56,7 @@ std::vector<DenseContact> dense_contacts(const ContactNetwork& network)
         dense.with_wall = with_wall;
         if (&arrays == &network.contacts.pistons) {
             dense.piston = 0;
-            dense.piston_arm = network.network.contacts.piston_arms[k];
+            dense.piston_arm = network.network.network.contacts.piston_arms[k];
         }
         if (with_wall && !arrays.wall.empty()) {
             dense.wall_velocity = arrays.wall[k].velocity;

@@ -29,7 +29,7 @@ TEST_CASE("every scene in scenarios/ builds and runs ten steps", "[scenarios]")
     for (const auto& path : supplied_scenes()) {
         DYNAMIC_SECTION(path.stem().string())
         {
-            auto simulation = build_scene(read_scene(path).scene);
+            auto simulation = build_scene(read_scene(path).scene).simulation;
             // Places with six digits, as files of other programs have them, overlap by a little.
             const bool imported = path.stem() == "import";
             CHECK(check_overlaps(simulation).worst <= (imported ? 1e-3 * simulation.model.mean_diameter : 0.0));

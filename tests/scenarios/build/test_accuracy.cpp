@@ -132,15 +132,16 @@ TEST_CASE("the cheapest setting that is accurate enough is taken", "[accuracy]")
         scene.accuracy = std::to_string(100.0 * measured.error + 1e-5) + " %";
         auto asking_nothing = scene;
         asking_nothing.accuracy = "";
-        const Simulation usual = build_scene(asking_nothing), chosen = build_scene(scene);
-        INFO(scene.accuracy << ": " << chosen.accuracy_explanation);
+        const Simulation usual = build_scene(asking_nothing).simulation;
+        const auto [chosen, report] = build_scene(scene);
+        INFO(scene.accuracy << ": " << report.accuracy);
         const double by_speed = 0.1 * chosen.model.min_diameter / choose_step(scene, chosen).fastest_speed;
         CHECK(
             chosen.model.time_step == Approx(std::min(measured.setting.step_factor * usual.model.time_step, by_speed)));
         CHECK(chosen.model.solver.min_sweeps ==
               (measured.setting.min_sweeps > 0 ? measured.setting.min_sweeps : usual.model.solver.min_sweeps));
         CHECK(chosen.model.solver.tolerance == measured.setting.tolerance);
-        CHECK_THAT(chosen.accuracy_explanation, Contains(measured.worst));
+        CHECK_THAT(report.accuracy, Contains(measured.worst));
     }
 }
 
@@ -148,9 +149,9 @@ TEST_CASE("a coarse accuracy leaves the fastest sphere its tenth of a diameter i
 {
     auto scene = small_scene();
     scene.fill[0].velocity = Vec3(0, 0, -30.0);
-    const Simulation usual = build_scene(scene);
+    const Simulation usual = build_scene(scene).simulation;
     scene.accuracy = "100%";
-    CHECK(build_scene(scene).model.time_step == usual.model.time_step);
+    CHECK(build_scene(scene).simulation.model.time_step == usual.model.time_step);
 }
 
 TEST_CASE("what a scene sets itself stands, whatever its accuracy", "[accuracy]")
@@ -160,17 +161,17 @@ TEST_CASE("what a scene sets itself stands, whatever its accuracy", "[accuracy]"
     scene.time.step = {1e-4, ""};
     scene.solver.min_sweeps = 7;
     scene.solver.tolerance = {1e-5, ""};
-    const Simulation simulation = build_scene(scene);
+    const auto [simulation, report] = build_scene(scene);
     CHECK(simulation.model.time_step == 1e-4);
     CHECK(simulation.model.solver.min_sweeps == 7);
     CHECK(simulation.model.solver.tolerance == 1e-5);
-    CHECK_THAT(simulation.accuracy_explanation, Contains("stands: time.step, solver.min_sweeps, solver.tolerance"));
+    CHECK_THAT(report.accuracy, Contains("stands: time.step, solver.min_sweeps, solver.tolerance"));
 }
 
 TEST_CASE("without a wish for accuracy a scene runs as usual", "[accuracy]")
 {
-    const Simulation simulation = build_scene(small_scene());
-    CHECK(simulation.accuracy_explanation.empty());
+    const auto [simulation, report] = build_scene(small_scene());
+    CHECK(report.accuracy.empty());
     CHECK(simulation.model.solver.min_sweeps == 2);
     CHECK(simulation.model.solver.tolerance == 1e-2);
 }

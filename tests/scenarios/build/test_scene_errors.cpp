@@ -532,19 +532,24 @@ const std::vector<Mistake> of_insertion = {
         "pour[0].mass", "this mass is that of more than 100 million spheres"},
 };
 
+/// The key and the sentence of the error that the scene makes.
+std::pair<std::string, std::string> refusal_of(const S& scene)
+{
+    try {
+        build_scene(scene);
+    } catch (const SceneError& error) {
+        return {error.key, error.what()};
+    }
+    return {"none", "no error"};
+}
+
 void check_all(const std::vector<Mistake>& mistakes)
 {
     for (const Mistake& mistake : mistakes) {
         auto scene = small_scene();
         mistake.make(scene);
         INFO(mistake.key << ": " << mistake.sentence);
-        std::string key = "none", sentence = "no error";
-        try {
-            build_scene(scene);
-        } catch (const SceneError& error) {
-            key = error.key;
-            sentence = error.what();
-        }
+        const auto [key, sentence] = refusal_of(scene);
         CHECK(key == mistake.key);
         CHECK(sentence == mistake.sentence);
     }
@@ -592,6 +597,25 @@ TEST_CASE("a scene with a mistake is not built, and the key and the reason are t
     }
 }
 
+TEST_CASE("of several mistakes the first in the order of the scene is told", "[scenes][errors]")
+{
+    const std::vector<std::pair<std::string, std::function<void(S&)>>> mistakes = {
+        {"solver.max_sweeps", [](S& s) { s.solver.max_sweeps = 1; }},
+        {"output.region.max", [](S& s) { s.output.region.shape = "box"; }},
+        {"contact[0].between", [](S& s) { s.contact[0].between = {"glass"}; }},
+        {"fill[0].diameter.value", [](S& s) { s.fill[0].diameter.value = 0.0; }},
+        {"pour[0].count", [](S& s) { s.pour.emplace_back(small_pour()).count = 0; }},
+        {"wall[0].max", [](S& s) { s.wall[0].max.y() = 0.0; }},
+        {"outlet[0].region.max", [](S& s) { s.outlet.emplace_back(); }},
+        {"sensor[0].wall", [](S& s) { s.sensor = {sensor("a", "wall_force")}; }},
+    };
+    for (std::size_t first = 0; first < mistakes.size(); ++first) {
+        auto scene = small_scene();
+        for (std::size_t k = first; k < mistakes.size(); ++k) mistakes[k].second(scene);
+        CHECK(refusal_of(scene).first == mistakes[first].first);
+    }
+}
+
 TEST_CASE("of two tables with one name both are told", "[scenes][errors]")
 {
     auto scene = small_scene();
@@ -611,7 +635,7 @@ TEST_CASE("tables whose name is left out do not collide", "[scenes]")
     auto scene = small_scene();
     scene.pour = {small_pour(), small_pour()};
     scene.outlet = {{"", scene.fill[0].region}, {"", scene.fill[0].region}};
-    const auto simulation = build_scene(scene);
+    const auto simulation = build_scene(scene).simulation;
     CHECK(simulation.pours.size() == 2);
     CHECK(simulation.pours[0].name != simulation.pours[1].name);
     CHECK(simulation.model.outlets.size() == 2);
