@@ -103,7 +103,7 @@ RunEnd RunLoop::run()
     const StepReport last = run_until(simulation_, simulation_.duration, hooks);
 
     if (end.signal == 0) write_the_rest(last);
-    if (simulation_.incident_policy.stops(last)) end.incidents = last.incidents;
+    if (simulation_.incident_policy.stops(last)) end.incidents = last.bodies.incidents;
     progress_.finish();
     clock_.begin(RunPhase::output); // so that the phases add up to the whole
     return end;
@@ -221,8 +221,9 @@ void RunLoop::write_metrics(const StepReport& report)
     const double d = simulation_.model.mean_diameter;
     std::vector<double> row = {state.time, static_cast<double>(state.count()), static_cast<double>(state.next_id),
         static_cast<double>(simulation_.outflow.count), static_cast<double>(report.contacts.count),
-        static_cast<double>(report.solve.sweeps), report.solve.residual, report.contacts.worst_overlap / d, report.contacts.mean_overlap() / d,
-        report.bodies.kinetic_energy, report.bodies.potential_energy, report.contacts.stored_energy};
+        static_cast<double>(report.solve.sweeps), report.solve.residual, report.contacts.worst_overlap / d,
+        report.contacts.mean_overlap() / d, report.bodies.kinetic_energy, report.bodies.potential_energy,
+        report.contacts.stored_energy};
     for (const auto& sensor : simulation_.sensors)
         for (const Measurement& m : sensor->latest()) row.push_back(m.value);
     metrics_->add_row(row);

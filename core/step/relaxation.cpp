@@ -41,7 +41,8 @@ int relax_overlaps(State& state, const Model& model, double worst_overlap)
     int steps = 0;
     while (worst_overlap > good_overlap * model.mean_diameter && steps < most_steps) {
         stop(moved);
-        worst_overlap = advance(moved, network, relaxing).contacts.worst_overlap; // before the step, which makes it smaller
+        const auto report = advance_once({relaxing.time_step}, infinity, moved, network, relaxing, {});
+        worst_overlap = report->contacts.worst_overlap; // before the step, which makes it smaller
         ++steps;
     }
     state.position = moved.position;

@@ -34,8 +34,8 @@ TEST_CASE("long moves are told once, in the tenth step that has them, with a ste
 {
     StepWatch watch;
     StepReport fast;
-    fast.long_moves = 3;
-    fast.fastest_speed = 2.7;
+    fast.bodies.long_moves = 3;
+    fast.bodies.fastest_speed = 2.7;
     CHECK(said(watch, StepReport(), 1000).empty());
     CHECK(said(watch, fast, 9).empty());
     CHECK_THAT(said(watch, fast, 1), Contains("--set time.step=0.00037")); // 0.1 d / 2.7 m/s, rounded down
@@ -46,7 +46,7 @@ TEST_CASE("deep overlap is told once where it lasts, with a step that makes cont
 {
     StepWatch watch;
     StepReport deep;
-    deep.worst_overlap = 8e-4; // 8 % d
+    deep.contacts.worst_overlap = 8e-4; // 8 % d
     CHECK(said(watch, deep, 199).empty());
     CHECK(said(watch, StepReport(), 1).empty()); // it has passed
     CHECK(said(watch, deep, 199).empty());

@@ -18,9 +18,9 @@ namespace
 StepReport report(double kinetic, double potential, double contact_at_beginning)
 {
     StepReport r;
-    r.kinetic_energy = kinetic;
-    r.potential_energy = potential;
-    r.contact_energy = contact_at_beginning;
+    r.bodies.kinetic_energy = kinetic;
+    r.bodies.potential_energy = potential;
+    r.contacts.stored_energy = contact_at_beginning;
     return r;
 }
 
@@ -55,8 +55,8 @@ TEST_CASE("what loads and walls put in is no gain", "[app][energy]")
     balance.add(report(0.0, 0.0, 0.0), true);
     for (const double energy : {2.0, 5.0, 5.0}) {
         StepReport r = report(energy, 0.0, 0.0);
-        r.wall_work = energy == 2.0 ? 1.5 : 0.0;
-        r.load_work = energy == 2.0 ? 0.5 : balance.put_in() < 4.0 ? 3.0 : 0.0;
+        r.outcome.wall_work = energy == 2.0 ? 1.5 : 0.0;
+        r.bodies.load_work = energy == 2.0 ? 0.5 : balance.put_in() < 4.0 ? 3.0 : 0.0;
         balance.add(r, true);
     }
     CHECK(balance.put_in() == Approx(5.0));

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "scenarios/build/step_choice.hpp"
+
+#include <string>
+
+namespace talus
+{
+
+/// What there is to tell of a simulation that was built, a line each.
+struct BuildReport {
+    std::string accuracy; ///< what the scene's accuracy picked; empty where it asks for none
+    std::string step;     ///< where the time step comes from
+    std::string model;    ///< what the run models and what it leaves out
+    std::string overlap;  ///< how stiff contacts are at most, and the overlap that it implies
+};
+
+/// Where the step comes from. @param d the smallest diameter [m]
+std::string explain_step(const StepChoice& choice, double d);
+
+/// What the run models, and what it leaves out because nothing in the scene needs it.
+std::string explain_model(const Model& model);
+
+/// How soft `matched` makes contacts, k = 2.2 N_min/(W h²), and what overlap the bed will have for it, mean/d ≈
+/// 0.4 Z g h²/(N_min d), Z its height in diameters.
+std::string forecast_overlap(const Simulation& simulation);
+
+} // namespace talus

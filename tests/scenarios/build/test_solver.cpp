@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scenarios/build/build_scene.hpp"
+#include "tests/scenarios/small_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace talus;
+using namespace talus::test;
+
+namespace
+{
+
+/// As many rigid beads as lie `depth` deep in a narrow tube.
+scene::Scene tube(double depth)
+{
+    auto scene = small_scene();
+    scene.solver.stabilisation = "projected";
+    scene.wall[0].max = Vec3(0.04, 0.04, 10.0);
+    scene.fill[0].region.min = Vec3(0.001, 0.001, 0.001);
+    scene.fill[0].region.max = Vec3(0.039, 0.039, 9.0);
+    scene.fill[0].diameter.value = 0.01;
+    // Three beads stand 1.1 diameters apart across the room, which is packed to 0.6.
+    scene.fill[0].count = static_cast<std::int64_t>(depth * 0.01 * 0.032 * 0.032 * 0.6 / 5.236e-7);
+    return scene;
+}
+
+SolverSettings solver_of(const scene::Scene& scene)
+{
+    return build_scene(scene).simulation.model.solver;
+}
+
+} // namespace
+
+TEST_CASE("pressures are scaled in rigid beds of forty grains and more", "[scaling_choice]")
+{
+    CHECK_FALSE(solver_of(tube(36)).pressure_scaling);
+    CHECK(solver_of(tube(44)).pressure_scaling);
+
+    auto soft = tube(44);
+    soft.solver.stabilisation = "matched";
+    CHECK_FALSE(solver_of(soft).pressure_scaling);
+
+    auto periodic = tube(44);
+    periodic.world.periodic = {"x"};
+    periodic.world.min = Vec3::Zero();
+    periodic.world.max = Vec3(0.04, 0.04, 10.0);
+    CHECK_FALSE(solver_of(periodic).pressure_scaling);
+}
+
+TEST_CASE("pressures are scaled under what is ten times as heavy", "[scaling_choice]")
+{
+    const auto with_large = [](double diameter) {
+        auto scene = tube(2);
+        scene.fill.push_back(scene.fill[0]);
+        scene.fill[0].region.max.z() = 1.0;
+        scene.fill[1].region.min.z() = 1.0;
+        scene.fill[1].count = 1;
+        scene.fill[1].diameter.value = diameter;
+        return solver_of(scene).pressure_scaling;
+    };
+    CHECK_FALSE(with_large(0.021)); // 9.3 times
+    CHECK(with_large(0.022));       // 10.6 times
+}
+
+TEST_CASE("whether pressures are scaled is as the scene says, if it does", "[scaling_choice]")
+{
+    auto shallow = tube(36), deep = tube(44);
+    shallow.solver.pressure_scaling = {true, ""};
+    deep.solver.pressure_scaling = {false, ""};
+    CHECK(solver_of(shallow).pressure_scaling);
+    CHECK_FALSE(solver_of(deep).pressure_scaling);
+}
+
+TEST_CASE("six sweeps go with scaling in beds of a hundred grains and more", "[scaling_choice]")
+{
+    CHECK(solver_of(tube(90)).min_sweeps == 3);
+    auto deep = tube(110);
+    CHECK(solver_of(deep).min_sweeps == 6);
+    SECTION("not more than the scene allows")
+    {
+        deep.solver.max_sweeps = 5;
+        CHECK(solver_of(deep).min_sweeps == 5);
+    }
+    SECTION("not where the scene says how many")
+    {
+        deep.solver.min_sweeps = 4;
+        CHECK(solver_of(deep).min_sweeps == 4);
+    }
+    SECTION("not without scaling")
+    {
+        deep.solver.pressure_scaling = {false, ""};
+        CHECK(solver_of(deep).min_sweeps == 3);
+    }
+}
