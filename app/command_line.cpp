@@ -166,7 +166,7 @@ void add_method_options(CLI::App& verb, SolveRequest& solve)
     using multibody::Order;
     add_choice<Algorithm>(verb, "--algorithm", solve.algorithm,
         {{"2.1", Algorithm::residual_update}, {"2.2", Algorithm::local_residual}, {"3.1", Algorithm::projected}},
-        "Of the lecture note that core/README.md tells of; 2.1 and 2.2 solve equalities only [3.1]");
+        "Of the lecture note, see core/multibody/README.md; 2.1 and 2.2 solve equalities only [3.1]");
     add_choice<LocalSolve>(verb, "--local", solve.settings.local,
         {{"sequential", LocalSolve::sequential}, {"block", LocalSolve::block}, {"sliding", LocalSolve::sliding},
             {"scalar", LocalSolve::scalar}},
@@ -194,7 +194,7 @@ void add_solve(CLI::App& app, CommandLine& line)
     verb->add_option("PROBLEM", solve.problem, "A contact problem in FCLIB's format (HDF5)")->required()->type_name("");
     add_method_options(*verb, solve);
     verb->add_option("--tolerance", solve.settings.tolerance,
-            "On the residual, the relative error of the impulses: README (9) [1e-4]")
+            "On the residual, the relative error of the impulses: core/METHOD.md (9) [1e-4]")
         ->type_name("EPS")
         ->check(from_zero_up);
     verb->add_option("--max-sweeps", solve.settings.max_sweeps, "Cap on the sweeps [10000]")

@@ -103,6 +103,9 @@ void print_error(const RunSummary& summary)
         say("  {:<28} {} of {}, up to {} sub-steps each\n", "steps split for fast spheres", e.split_steps,
             summary.steps, e.most_sub_steps);
     say("  {:<28} {:.2g} N s\n", "worst cone violation", e.cone_violation);
+    if (e.corrections > 0)
+        say("  {:<28} {} of {} ({:.2g} %)\n", "pressure corrections refused", e.refused_corrections, e.corrections,
+            100.0 * static_cast<double>(e.refused_corrections) / static_cast<double>(e.corrections));
     const std::string put_in =
         e.energy_put_in == 0.0
             ? ""

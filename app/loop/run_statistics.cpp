@@ -62,6 +62,8 @@ void RunStatistics::add(const StepReport& report, const Simulation& simulation)
     sums_.most_sub_steps = std::max<std::int64_t>(sums_.most_sub_steps, report.sub_steps);
     sums_.long_moves += static_cast<std::int64_t>(report.bodies.long_moves);
     sums_.cone_violation = std::max(sums_.cone_violation, report.outcome.cone_violation);
+    sums_.corrections += report.scaling.corrections;
+    sums_.refused_corrections += report.scaling.refused;
 
     overlap_sum_ += report.contacts.mean_overlap() * static_cast<double>(report.contacts.overlapping);
     overlap_count_ += static_cast<double>(report.contacts.overlapping);

@@ -42,7 +42,7 @@ struct WallRow {
     Vec3 spin = Vec3::Zero();     ///< [rad/s]
 };
 
-/// Law that a contact follows in this step: README (4).
+/// Law that a contact follows in this step: METHOD (4).
 enum class ContactKind : std::uint8_t { resting, open, impact };
 
 /// What one step knows of a contact besides its solve; read by the position pass, the report and the frames.

@@ -80,7 +80,7 @@ inline NormalLaw projected_law(
     return {0.0, matched_compliance(law, event.inverse_mass_sum, step.h(), solver.min_sweeps)};
 }
 
-/// The law of a contact by its kind: README (4).
+/// The law of a contact by its kind: METHOD (4).
 inline NormalLaw normal_law(
     const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, const StepLength& step)
 {

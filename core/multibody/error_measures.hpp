@@ -9,7 +9,7 @@ namespace talus::multibody
 
 /// How far an iterate is from the laws. Each number has one unit, so none depends on the choice of units.
 struct ErrorMeasures {
-    /// ε = (Σ W|δ|² / Σ W|λ|²)^½, README (9) without its λ⁰, with the natural map δ = λ − P(λ − y/d) in impulse units:
+    /// ε = (Σ W|δ|² / Σ W|λ|²)^½, METHOD (9) without its λ⁰, with the natural map δ = λ − P(λ − y/d) in impulse units:
     /// P the projection of constraint.hpp (normal first), d the scale of each row. Zero where all laws hold, and only
     /// there.
     double natural_map = 0.0;

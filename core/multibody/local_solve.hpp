@@ -23,7 +23,7 @@ using LocalVector = Eigen::Ref<Eigen::VectorXd>;
 
 /// Eqs. (18), (19): z = λ_k − D_kk⁻¹ y_k, zero where its normal part is negative, then the projection. Exact for
 /// equalities, and for contacts where D_kk is diagonal; where it is not, a coupled block may never get to rest
-/// (core/README.md has the problems on which it does not).
+/// (tests/results/local_solves.md has the problems on which it does not).
 void solve_by_block(const LocalProblem& local, LocalVector y, LocalVector z);
 
 /// Eqs. (20), (21), their slip put right: what slides slides along the tangent of (18), z_t = μ z_1 w with w =

@@ -22,7 +22,7 @@ struct ScalingReport {
 /// the warm start, the scaling made a flow out of a hopper overlap nine times as much, in half as many sweeps again.
 constexpr int sweeps_before_scaling = 2;
 
-/// Pressure scaling: the impulses of all contacts are multiplied by a smooth positive field, README (11)
+/// Pressure scaling: the impulses of all contacts are multiplied by a smooth positive field, METHOD (11)
 ///
 ///   λ ← θ λ,  θ = 1 + t Σ_s α_s φ_s(x_contact),   v ← v + M⁻¹ Gᵀ Δλ
 ///

@@ -74,8 +74,8 @@ template <bool wall> void apply_rolling_impulse(const Contact& c, const Vec3& to
 /// The impulse that solves one contact with all others held, normal first, then friction on the disk of the new normal
 /// impulse; exactly where the relaxation ω is 1:
 ///
-///   λ_n ← max(0, λ_n − ω (u_n + Σ_n λ_n − q_n) / (W + Σ_n))                       README (6)
-///   λ_t ← projection of λ_t − ω u_t / (W (1 + 5/2 s²)) on the disk |λ_t| ≤ μ λ_n  README (7)
+///   λ_n ← max(0, λ_n − ω (u_n + Σ_n λ_n − q_n) / (W + Σ_n))                       METHOD (6)
+///   λ_t ← projection of λ_t − ω u_t / (W (1 + 5/2 s²)) on the disk |λ_t| ≤ μ λ_n  METHOD (7)
 template <class R> Vec3 solved_impulse(const Contact& c, const ContactTerms& terms, const Vec3& u, double relaxation)
 {
     const double u_n = u.dot(c.normal);
@@ -102,7 +102,7 @@ template <bool wall, class R> Vec3 relative_spin(const Contact& c, const SideRow
     return spin;
 }
 
-/// The rolling row's impulse on the disk |τ| ≤ μ_r R* λ_n, against the relative spin across the normal; README (8).
+/// The rolling row's impulse on the disk |τ| ≤ μ_r R* λ_n, against the relative spin across the normal; METHOD (8).
 template <bool wall, class R>
 Vec3 solved_rolling_impulse(const Contact& c, const SideRows& rows, const Motion* motion, double relaxation)
 {

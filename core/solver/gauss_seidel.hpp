@@ -18,7 +18,7 @@ struct SolveReport {
     void then(const SolveReport& next); ///< the next sub-step: all sweeps, the worst residual
 };
 
-/// Warm start: v ← v + M⁻¹ Gᵀ λ⁰ with the impulses in the contacts (README (5); the note forgets it).
+/// Warm start: v ← v + M⁻¹ Gᵀ λ⁰ with the impulses in the contacts (METHOD (5); the note forgets it).
 /// Returns Σ W|λ⁰|².
 double apply_warm_start(
     ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion, const ModelledPhysics& physics);
@@ -30,7 +30,7 @@ void sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, st
 /// Projected Gauss–Seidel (Algorithm 3.1 of the note) on the contacts of the network: sweeps tile colour by tile
 /// colour, the tiles of one colour in parallel, and the pistons after them, until
 ///
-///   ε = (Σ W|δ|² / max(Σ W|λ|², Σ W|λ⁰|²))^½ ≤ tolerance,  δ the exact correction of one contact alone,  README (9)
+///   ε = (Σ W|δ|² / max(Σ W|λ|², Σ W|λ⁰|²))^½ ≤ tolerance,  δ the exact correction of one contact alone,  METHOD (9)
 ///
 /// but at least min_sweeps and at most max_sweeps. The changes made by the sweeps tell when ε may be small enough; then
 /// a pass that changes nothing measures ε itself, and the sweeps go on if it is not.

@@ -26,7 +26,7 @@ Eigen::VectorXd in_rows(const Eigen::Matrix3d& basis, Eigen::Index rows, const V
 /// @param gain h f/m [m/s]
 void add_sphere_body(multibody::Problem& problem, const Motion& motion, bool spin, const Vec3& gain);
 
-/// What a sphere contributes to the rows of a contact, README (3): ±v + s n × a and, in the rolling rows, ±a/r.
+/// What a sphere contributes to the rows of a contact, METHOD (3): ±v + s n × a and, in the rolling rows, ±a/r.
 /// @param sign 1 for a, −1 for b
 Eigen::MatrixXd sphere_rows(
     const Eigen::Matrix3d& basis, Eigen::Index rows, const Motion& motion, bool spin, double sign, double arm_scale);

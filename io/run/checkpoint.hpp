@@ -15,7 +15,7 @@ struct Checkpoint {
 };
 
 /// Writes a checkpoint, whole or not at all: checkpoint.latest, and what had that name becomes checkpoint.previous.
-/// README.md of this folder has the format.
+/// io/README.md has the format.
 /// @param version of Talus
 /// @throws OutputError; the checkpoints there are then as they were
 void write_checkpoint(const std::filesystem::path& folder, const std::string& version, const std::string& state);

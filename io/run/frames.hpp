@@ -15,7 +15,7 @@ namespace talus
 
 /// Writes the VTK frames of a run: frames/particles_000123.vtp and so on, appended raw with LZ4, 32-bit floats, and
 /// after each the .pvd that lists them. Every file is replaced atomically, so that a running or killed run opens.
-/// README.md of this folder lists the arrays.
+/// io/README.md lists the arrays.
 class FrameWriter
 {
 public:

@@ -135,6 +135,7 @@ Json to_json(const ErrorSummary& error)
             {{"mean", error.mean_overlap}, {"worst", error.worst_overlap}, {"worst_at", error.worst_overlap_time}}},
         {"long_moves", error.long_moves}, {"sub_steps", {{"steps", error.split_steps}, {"most", error.most_sub_steps}}},
         {"cone_violation", error.cone_violation},
+        {"pressure_scaling", {{"corrections", error.corrections}, {"refused", error.refused_corrections}}},
         {"energy", {{"lost", error.energy_lost}, {"gained", error.energy_gained}, {"put_in", error.energy_put_in}}}};
 }
 

@@ -51,6 +51,8 @@ struct ErrorSummary {
     std::int64_t split_steps = 0;    ///< that were made in several for the sake of fast spheres
     std::int64_t most_sub_steps = 1; ///< of a step
     double cone_violation = 0.0;     ///< worst |λ_t| − μ λ_n [N s]
+    std::int64_t corrections = 0;    ///< of pressures (pressure_scaling.hpp) that were asked for; 0 where none scales
+    std::int64_t refused_corrections = 0; ///< of them, for energy would have risen
     double energy_lost = 0.0;   ///< kinetic + potential + stored in contacts: sum of its falls from step to step [J]
     double energy_gained = 0.0; ///< sum of its rises, which nothing put in [J]
     double energy_put_in = 0.0; ///< work of moving walls, and of gravity along periodic axes [J]

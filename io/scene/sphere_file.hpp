@@ -8,8 +8,8 @@
 namespace talus
 {
 
-/// Reads the spheres that a .vtp, .vtu or .csv file lists, in the order of their ids where it has any. README.md of
-/// this folder lists the arrays and columns.
+/// Reads the spheres that a .vtp, .vtu or .csv file lists, in the order of their ids where it has any. io/README.md
+/// lists the arrays and columns.
 /// @throws InputError where the file is missing, broken, empty or of another kind, or has a number that is not finite
 ///   or a radius that is not above 0
 scene::SphereList read_spheres(const std::filesystem::path& path);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of core/README.md: how far each local solve gets on the problems of tests/data/fclib.
+"""The table of tests/results/local_solves.md: how far each local solve gets on the problems of tests/data/fclib.
 
     tests/benchmarks/local_solves.py [--sweeps 2500] [--talus build/talus]
 

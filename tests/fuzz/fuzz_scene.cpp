@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
         const auto file = talus::read_scene(talus::fuzz::fuzzed_file("scene.toml", bytes, size));
         if (!is_small(file.scene)) return 0;
         auto simulation = talus::build_scene(file.scene).simulation;
-        talus::step(simulation);
+        talus::advance(simulation);
     } catch (const talus::InputError&) {
     } catch (const talus::SceneError&) {
     }

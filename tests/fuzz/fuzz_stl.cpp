@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
         wall.triangles = std::move(soup.triangles);
         scene.wall.push_back(wall);
         auto simulation = talus::build_scene(scene).simulation;
-        for (int k = 0; k < 3 && talus::step(simulation).incidents.empty(); ++k) {}
+        for (int k = 0; k < 3 && talus::advance(simulation).bodies.incidents.empty(); ++k) {}
     } catch (const talus::InputError&) {
     } catch (const talus::SceneError&) {
     }

@@ -60,7 +60,7 @@ Arch watch(const Simulation& clogged, const SolverSettings& solver, int steps = 
     const double height = center_height(state);
     double sweeps = 0.0;
     for (int k = 1; k <= steps; ++k) {
-        if (cold) contacts = {};
+        if (cold) network = {};
         sweeps += advance(state, network, model).solve.sweeps;
         arch.sweeps = sweeps / k;
         if (below_hole(state) > 0) {

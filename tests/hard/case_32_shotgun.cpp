@@ -42,7 +42,7 @@ TEST_CASE("32 a shotgun in a closed box", "[hard]")
                 open_scene("shotgun", {"contact.steel-steel.restitution=" + restitution, "time.step=" + step});
             const double first_energy = kinetic_energy(simulation.state);
             while (!has_reached(simulation, simulation.duration)) {
-                const auto report = talus::step(simulation);
+                const auto report = talus::advance(simulation);
                 whole = whole && report.bodies.incidents.empty();
                 deepest = std::max(deepest, deepest_outside(simulation.state) / simulation.model.mean_diameter);
                 most_energy = std::max(most_energy, report.bodies.kinetic_energy / first_energy);

@@ -44,7 +44,7 @@ double center_height(const State& state)
 }
 
 LoadedBed::LoadedBed(const Simulation& bed, double end)
-    : model(bed.model), state_(bed.state), contacts_(bed.network), momentum_(bed.state.count())
+    : model(bed.model), state_(bed.state), network_(bed.network), momentum_(bed.state.count())
 {
     std::vector<double> height(state_.count());
     for (std::size_t i = 0; i < state_.count(); ++i) {
@@ -67,7 +67,7 @@ StepReport LoadedBed::step()
         Motion& m = state_.motion[static_cast<std::size_t>(i)];
         m.velocity.z() -= h * 0.25 * weight_ / grains_per_layer * m.inverse_mass;
     }
-    return advance(state_, contacts_, model);
+    return advance(state_, network_, model);
 }
 
 double LoadedBed::profile_error() const

@@ -29,7 +29,7 @@ struct LoadHistory {
     template <class Step, class Error> LoadHistory(Step&& step, Error&& error)
     {
         for (int k = 0; k < 3000; ++k) {
-            sweeps.push_back(sweeps.back() + step().sweeps);
+            sweeps.push_back(sweeps.back() + step().solve.sweeps);
             errors.push_back(error());
         }
     }
@@ -60,7 +60,7 @@ public:
 
 private:
     State state_;
-    ContactNetwork contacts_;
+    ContactNetwork network_;
     std::vector<std::int64_t> from_top_; ///< ids of the bed's grains
     std::vector<double> momentum_;       ///< of each grain before the step, by id [kg m/s]
     double weight_ = 0.0;                ///< of the bed [N]

@@ -94,7 +94,7 @@ TEST_CASE("a run that pours and empties keeps its ledger", "[simulation]")
 
 TEST_CASE("steps are made until the time, each told once, or until a hook wants no more", "[simulation]")
 {
-    auto simulation = build_scene(small_scene());
+    auto simulation = build_scene(small_scene()).simulation;
     const double h = simulation.model.time_step;
     int told = 0;
     const auto count = [&](const StepReport&) { ++told; };
@@ -111,7 +111,7 @@ TEST_CASE("an escape ends the steps, or the sphere is taken out before the next 
     const bool removed = GENERATE(false, true);
     auto scene = small_scene();
     scene.world.on_escape = removed ? "remove" : "stop";
-    auto simulation = build_scene(scene);
+    auto simulation = build_scene(scene).simulation;
     const auto spheres = simulation.state.count();
     simulation.state.position[3].z() = simulation.model.world.min.z();
     simulation.state.motion[3].velocity = Vec3(0, 0, -1);

@@ -103,8 +103,8 @@ TEST_CASE("the velocity error of a step is measured without a trace", "[app][stu
     Simulation measured = open_scene(line).simulation, left_alone = open_scene(line).simulation;
     const auto both_make_steps = [&](int count) {
         for (int k = 0; k < count; ++k) {
-            step(measured);
-            step(left_alone);
+            advance(measured);
+            advance(left_alone);
         }
     };
     both_make_steps(400);

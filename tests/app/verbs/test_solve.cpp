@@ -84,7 +84,7 @@ TEST_CASE("the choices of a solve choose", "[app][solve]")
     CHECK(sweeps("--order symmetric") != plain);
     CHECK(sweeps("--omega 0.5") > plain);
     CHECK(sweeps("--order shuffled --seed 1") != sweeps("--order shuffled --seed 2"));
-    CHECK(sweeps("--local block") == 500); // stalls: core/README.md
+    CHECK(sweeps("--local block") == 500); // stalls: tests/results/local_solves.md
     CHECK(sweeps("--local sliding") < 500);
     CHECK(sweeps("--local scalar") < 500);
 }
