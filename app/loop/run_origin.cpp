@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/loop/run_origin.hpp"
 
-#include "io/scene/named_files.hpp"
+#include "io/scene/scene_file.hpp"
 #include "io/text/input_error.hpp"
 
 #include <fmt/format.h>

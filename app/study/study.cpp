@@ -11,7 +11,6 @@
 #include "app/system/terminal.hpp"
 #include "core/base/statistics.hpp"
 #include "io/run/run_files.hpp"
-#include "io/scene/named_files.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/scene/study_file.hpp"
 #include "io/text/input_error.hpp"

@@ -18,7 +18,7 @@ constexpr double contacts_per_sphere = 3.0;
 constexpr double base_memory = 20e6;          ///< program and libraries [B]
 constexpr double passing_memory = 300.0;      ///< for a sphere, while the search or a frame is at work [B]
 constexpr double particle_frame_bytes = 50.0; ///< for a sphere, compressed (measured)
-constexpr double contact_frame_bytes = 50.0;  ///< for a contact, likewise
+constexpr double contact_frame_bytes = 50.0;  ///< for a contact, compressed (measured)
 constexpr double metrics_row_bytes = 200.0;
 constexpr double checkpoint_bytes = 400.0; ///< for a sphere (measured); two checkpoints are kept
 

@@ -16,7 +16,7 @@ struct RunningError {
     /// What can be kept that way: by how much the last sweep lowered the energy error ½ (λ − λ*)ᵀ S_ε (λ − λ*) [J]. An
     /// update by ω z, z = −D_kk⁻¹ r_k, lowers it by exactly ω (1 − ω/2) r_kᵀ D_kk⁻¹ r_k.
     double energy_drop = 0.0;
-    double energy_drop_before = 0.0; ///< likewise of the sweep before
+    double energy_drop_before = 0.0; ///< energy_drop of the sweep before [J]
 
     /// The energy error that is left [J], if the drops go on as a geometric series; infinite while they do not fall.
     double energy_left() const;

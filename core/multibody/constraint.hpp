@@ -11,7 +11,7 @@ enum class Law {
     equality,   ///< y = 0; λ_k has either sign
     unilateral, ///< each row by itself: 0 ≤ λ ⟂ y ≥ 0
     contact, ///< rows normal, tangent, tangent[, rolling, rolling]: 0 ≤ λ_n ⟂ y_n ≥ 0; |λ_t| ≤ μ λ_n, and where y_t is
-             ///< not zero λ_t = −μ λ_n y_t/|y_t|; the rolling rows likewise, with their reach in place of μ
+             ///< not zero λ_t = −μ λ_n y_t/|y_t|; so the rolling rows, with their reach in place of μ
 };
 
 inline constexpr Eigen::Index tangent_rows = 2; ///< of a contact, after its normal

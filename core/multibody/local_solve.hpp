@@ -35,7 +35,7 @@ void solve_along_sliding(const LocalProblem& local, LocalVector y, LocalVector z
 void solve_by_row(const LocalProblem& local, LocalVector y, LocalVector z);
 
 /// Normal first; then the tangent on the disk of the new normal, with the normal's change included; then the rolling
-/// rows likewise. Each part is solved exactly for itself, so what stays fixed under it obeys the law, coupled or not.
+/// rows on theirs. Each part is solved exactly for itself, so what stays fixed under it obeys the law, coupled or not.
 /// Equalities are solved as a block.
 void solve_in_sequence(const LocalProblem& local, LocalVector y, LocalVector z);
 

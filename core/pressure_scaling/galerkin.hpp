@@ -16,7 +16,7 @@ namespace talus
 struct CoarseEnergy {
     CoarseSystem curvature;           ///< A
     Eigen::VectorXd power;            ///< Σ φ_s λ·y
-    Eigen::VectorXd unsliding;        ///< likewise, without the rows that slide
+    Eigen::VectorXd unsliding;        ///< Σ φ_s λ·y without the rows that slide
     std::vector<std::int32_t> row_of; ///< by node of the grid: its row, or −1 where nothing is loaded
 };
 

@@ -22,7 +22,7 @@ struct Load {
     Vec3 turn_b = Vec3::Zero();
     HatPlace place;
     double power = 0.0;     ///< λ·y [J], y = u + Σ λ − q: by so much the energy rises per share of growth
-    double unsliding = 0.0; ///< likewise, but without the rows that slide
+    double unsliding = 0.0; ///< `power` without the rows that slide [J]
 };
 
 /// The loaded contacts: those of tile t are [first[t], first[t + 1]), in the order of its contacts; then come those

@@ -32,7 +32,7 @@ public:
         }
     }
 
-    /// Likewise, but all tiles at the same time.
+    /// Calls work(tile) for all tiles at the same time.
     template <class Work> void all_at_once(Work&& work)
     {
         run_until(static_cast<std::uint32_t>(tiles_.count()), 0, work);

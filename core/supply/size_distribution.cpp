@@ -57,7 +57,8 @@ double normal_moment(const SizeDistribution& sizes, int power)
     return m * m * m + 3.0 * m * m * s * first + 3.0 * m * s * s * second + s * s * s * third;
 }
 
-/// Likewise over a lognormal one: d^k weights it into another lognormal, of a centre that lies k s² higher.
+/// Mean of d^power over a lognormal distribution cut at both sides: d^k weights it into another lognormal, of a centre
+/// that lies k s² higher.
 double lognormal_moment(const SizeDistribution& sizes, int power)
 {
     const auto [a, b] = cuts(sizes);

@@ -23,7 +23,7 @@ struct SizeDistribution {
     double max = 0.0; ///< [m]; uniform between the two, one size where they are equal
     Law law = Law::uniform;
     double center = 0.0; ///< normal: the mean [m], lognormal: that of ln(d / 1 m), both before min and max cut it
-    double spread = 0.0; ///< likewise the standard deviation: [m], or of ln d
+    double spread = 0.0; ///< standard deviation before min and max cut it: of d [m], or of ln d
     std::vector<SieveClass> classes = {}; ///< sieve only, from fine to coarse; their numbers add up to 1
 
     double draw(Random& random) const;

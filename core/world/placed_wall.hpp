@@ -46,7 +46,7 @@ public:
     /// The velocity of the wall's material at a place near this patch [m/s]: the mean over the step that begins now; of
     /// a piston, that with which it begins, and the step may add `gain`.
     Vec3 velocity(std::size_t patch, const Vec3& x) const { return twist_.at(x - image_of(patch)); }
-    /// Likewise over the step before, with which v⁽⁰⁾ belongs together.
+    /// The wall's mean velocity over the step before, with which v⁽⁰⁾ belongs together [m/s].
     Vec3 velocity_before(std::size_t patch, const Vec3& x) const { return twist_before_.at(x - image_of(patch)); }
     const Vec3& spin() const { return twist_.spin; } ///< as `velocity` [rad/s]
     const Vec3& gain() const { return gain_; }       ///< zero but for pistons [m/s]
@@ -70,7 +70,8 @@ private:
     bool stands_;
 };
 
-/// All walls as they stand. @param step as above
+/// All walls as they stand.
+/// @param step h [s] over which velocities are means; 0: only the places are wanted
 std::vector<PlacedWall> place_walls(const Model& model, const State& state, double step = 0.0);
 
 /// All walls at the beginning of a run: pistons where the scene puts them.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/scene/named_files.hpp"
+#include "io/scene/scene_file.hpp"
 
 #include "io/scene/sieve_file.hpp"
 #include "io/scene/sphere_file.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/scene_file.hpp"
 
-#include "io/scene/named_files.hpp"
 #include "io/scene/overrides.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/toml_value.hpp"

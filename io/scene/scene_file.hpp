@@ -3,9 +3,11 @@
 
 #include "scenarios/scene.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace talus
@@ -39,5 +41,14 @@ std::string resolved_scene(const scene::Scene& scene);
 
 /// The keys in which two scenes differ, as in SceneFile::places; where a list of tables has another length, the list.
 std::vector<std::string> changed_keys(const scene::Scene& before, const scene::Scene& after);
+
+/// Reads every file that a scene names into it, meshes, spheres and sieve analyses, and makes their paths absolute: a
+/// part of read_scene (in named_files.cpp).
+/// @throws InputError that begins with the place of the key
+void read_named_files(SceneFile& file);
+
+/// The files that a scene was read from beside its own, those of the keys `mesh` and `file`, with their checksums.
+/// @throws InputError where one cannot be read any more
+std::vector<std::pair<std::string, std::uint32_t>> named_files(const scene::Scene& scene);
 
 } // namespace talus
