@@ -2,7 +2,6 @@
 #include "core/candidates/candidate_search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace talus

@@ -6,7 +6,6 @@
 #include "core/contacts/wall_contacts.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace talus
 {

@@ -2,7 +2,6 @@
 #include "core/step/diagnostics.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace talus
