@@ -57,7 +57,7 @@ private:
     Displacements displacements_;
     ForceProfile cuts_;
     std::vector<double> force_sum_; ///< over the looks [N]
-    double support_squares_ = 0.0;  ///< likewise [N²]
+    double support_squares_ = 0.0;  ///< squares summed over the looks [N²]
     double height_sum_ = 0.0, restless_sum_ = 0.0;
     std::int64_t looked_ = 0;
 

@@ -31,7 +31,7 @@ struct StudyPoint {
     std::string status = "done";         ///< or why it failed, for the first seed where it did
     double cpu = 0.0;                    ///< mean over the seeds and equal settings, for a simulated second [s]
     int equal_settings = 1;              ///< that came to the same bits, this one among them
-    double updates = 0.0;                ///< contact updates, likewise
+    double updates = 0.0;                ///< of contacts, mean over the seeds, for a simulated second
     double memory = 0.0;                 ///< the most [B]
     std::vector<ErrorValue> errors = {}; ///< by kind; empty where it failed
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/region.hpp"
 
-#include "core/base/disk_extent.hpp"
-
 #include <cmath>
 #include <numbers>
 

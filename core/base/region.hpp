@@ -17,6 +17,12 @@ inline double uniform(Random& random)
     return static_cast<double>(random() >> 11) * 0x1.0p-53;
 }
 
+/// Half of the size, along each coordinate, of a disk of radius 1 at right angles to a unit axis.
+inline Vec3 disk_half_extent(const Vec3& axis)
+{
+    return (Vec3::Ones() - axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+}
+
 /// A part of space: a box, or an upright or tilted cylinder. Fills, pours and outlets have one.
 struct Region {
     enum class Shape { box, cylinder };

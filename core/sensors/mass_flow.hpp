@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/base/time_window.hpp"
 #include "core/sensors/sensor.hpp"
 
 namespace talus

@@ -3,7 +3,6 @@
 
 #include "core/base/block_mean.hpp"
 #include "core/base/region.hpp"
-#include "core/base/time_window.hpp"
 #include "core/sensors/sensor.hpp"
 
 #include <array>

@@ -32,6 +32,14 @@ struct Table {
     std::vector<std::vector<double>> rows; ///< as long as there are columns
 };
 
+/// The steady part of a run, over which a sensor averages [s].
+struct TimeWindow {
+    double from = 0.0;
+    double to = infinity;
+
+    bool contains(double time) const { return time >= from && time <= to; }
+};
+
 /// What a sensor may look at after a step: the spheres as they are, the contacts that the step solved, and its report.
 /// They belong together: contacts name spheres by storage index.
 struct Snapshot {

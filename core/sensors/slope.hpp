@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/base/block_mean.hpp"
-#include "core/base/time_window.hpp"
 #include "core/sensors/sensor.hpp"
 
 #include <limits>

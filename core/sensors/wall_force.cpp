@@ -9,7 +9,8 @@ namespace talus
 namespace
 {
 
-constexpr std::array<const char*, 6> names = {"force_x", "force_y", "force_z", "torque_x", "torque_y", "torque_z"};
+constexpr std::array<const char*, 6> force_names = {
+    "force_x", "force_y", "force_z", "torque_x", "torque_y", "torque_z"};
 
 const char* unit_of(std::size_t k)
 {
@@ -50,7 +51,7 @@ void WallForce::sample(const Snapshot&)
 std::vector<Measurement> WallForce::latest() const
 {
     std::vector<Measurement> all;
-    for (std::size_t k = 0; k < quantities; ++k) all.push_back({names[k], latest_[k], 0.0, unit_of(k)});
+    for (std::size_t k = 0; k < quantities; ++k) all.push_back({force_names[k], latest_[k], 0.0, unit_of(k)});
     return all;
 }
 
@@ -58,7 +59,7 @@ std::vector<Measurement> WallForce::results() const
 {
     std::vector<Measurement> all;
     for (std::size_t k = 0; k < quantities; ++k)
-        all.push_back({names[k], means_[k].mean(), means_[k].standard_error(), unit_of(k)});
+        all.push_back({force_names[k], means_[k].mean(), means_[k].standard_error(), unit_of(k)});
     return all;
 }
 

@@ -8,8 +8,8 @@ namespace talus
 namespace
 {
 
-constexpr std::array<const char*, 3> names = {"travel", "speed", "load"};
-constexpr std::array<const char*, 3> units = {"m", "m/s", "N"};
+constexpr std::array<const char*, 3> position_names = {"travel", "speed", "load"};
+constexpr std::array<const char*, 3> position_units = {"m", "m/s", "N"};
 
 } // namespace
 
@@ -43,7 +43,7 @@ void WallPosition::sample(const Snapshot& now)
 std::vector<Measurement> WallPosition::latest() const
 {
     std::vector<Measurement> all;
-    for (std::size_t k = 0; k < quantities; ++k) all.push_back({names[k], latest_[k], 0.0, units[k]});
+    for (std::size_t k = 0; k < quantities; ++k) all.push_back({position_names[k], latest_[k], 0.0, position_units[k]});
     return all;
 }
 
@@ -51,7 +51,7 @@ std::vector<Measurement> WallPosition::results() const
 {
     std::vector<Measurement> all;
     for (std::size_t k = 0; k < quantities; ++k)
-        all.push_back({names[k], means_[k].mean(), means_[k].standard_error(), units[k]});
+        all.push_back({position_names[k], means_[k].mean(), means_[k].standard_error(), position_units[k]});
     return all;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/world/wall.hpp"
 
-#include "core/base/disk_extent.hpp"
 #include "core/base/region.hpp"
 #include "core/world/triangle_tree.hpp"
 

@@ -11,7 +11,7 @@ namespace talus
 namespace
 {
 
-constexpr const char* key = "accuracy";
+constexpr const char* accuracy_key = "accuracy";
 
 std::string percent(double share)
 {
@@ -28,7 +28,7 @@ double share_of(const std::string& text)
     auto [at, error] = std::from_chars(text.data(), end, number);
     while (at != end && *at == ' ') ++at;
     if (error != std::errc{} || at == end || std::string(at, end) != "%" || !(number > 0.0 && number <= 100.0))
-        throw SceneError(key, "'" + text + "' must be a percentage above 0 and up to 100, like \"1%\"");
+        throw SceneError(accuracy_key, "'" + text + "' must be a percentage above 0 and up to 100, like \"1%\"");
     return 0.01 * number;
 }
 
@@ -40,8 +40,9 @@ const MeasuredSetting& cheapest_within(double error, Stabilisation stabilisation
         if (measured.error <= error) return measured;
         best = &measured;
     }
-    throw SceneError(key, "'" + percent(error) + "' is finer than what was measured: " + percent(best->error) +
-                              " is the least with this stabilisation; 'talus study' finds settings for a scene");
+    throw SceneError(
+        accuracy_key, "'" + percent(error) + "' is finer than what was measured: " + percent(best->error) +
+                          " is the least with this stabilisation; 'talus study' finds settings for a scene");
 }
 
 std::string described(const RunSetting& setting)

@@ -64,7 +64,7 @@ struct Told {
     Incident press;          ///< the first
     double fastest = 0.0;    ///< of any sphere in any step [m/s]
     double force = 0.0;      ///< largest of any contact [N]
-    double left_over = 0.0;  ///< likewise at the end
+    double left_over = 0.0;  ///< largest of any contact at the end [N]
 };
 
 Told run(World& world, double duration)

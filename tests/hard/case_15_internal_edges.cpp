@@ -31,7 +31,7 @@ const Eigen::Matrix3d oblique = Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.7).normaliz
 struct Ride {
     double bump = 0.0;        ///< largest change of its height [d]
     double speed_error = 0.0; ///< at the end, of what the law says, relative
-    double spin_error = 0.0;  ///< likewise, r ω
+    double spin_error = 0.0;  ///< of r ω at the end, relative
     double sideways = 0.0;    ///< farthest from the line of its way [d]
 
     void keep_worst(const Ride& other)

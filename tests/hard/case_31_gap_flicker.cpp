@@ -19,7 +19,7 @@ const double h = automatic_step();
 
 struct Flicker {
     double deviation = 0.0;   ///< of the impulse on the sphere [m g h]
-    double error = 0.0;       ///< of its mean, likewise
+    double error = 0.0;       ///< of its mean [m g h]
     bool persists = true;     ///< an impulse in every step
     int above = 0, steps = 0; ///< steps that began with g > 0, of so many
 };

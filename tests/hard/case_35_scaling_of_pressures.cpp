@@ -19,8 +19,8 @@ namespace
 
 struct Flow {
     double overlap = 0.0;        ///< mean over contacts and steps from `from` on [d]
-    double sweeps = 0.0;         ///< mean, likewise
-    double kinetic_energy = 0.0; ///< mean, likewise [J]
+    double sweeps = 0.0;         ///< mean over the same steps
+    double kinetic_energy = 0.0; ///< mean over the same steps [J]
 };
 
 /// A scene under `projected`, without relaxation, which there is not where pressures are scaled; watched over the

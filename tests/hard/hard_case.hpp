@@ -33,7 +33,7 @@ public:
     void between(const std::string& what, double measured, double least, double most);
     void holds(const std::string& what, bool held);
     void tell(const std::string& what, double measured);           ///< a figure of which nothing is asked
-    void tell(const std::string& what, const std::string& answer); ///< likewise
+    void tell(const std::string& what, const std::string& answer); ///< words of which nothing is asked
 
 private:
     struct Row {

@@ -88,7 +88,7 @@ std::string name_of(Stabilisation stabilisation);
 /// h = 0.008 √(d/g), what a scene gets whose smallest spheres have this diameter.
 double automatic_step(double diameter = 2 * standard_radius);
 
-/// 0.1 √(d g), likewise, for spheres of this mean diameter [m/s].
+/// 0.1 √(d g), what a scene gets whose spheres have this mean diameter [m/s].
 double automatic_push_out_speed(double diameter = 2 * standard_radius);
 
 /// An empty world with downward gravity in which spheres meet by one law and walls by the same or another.

@@ -36,7 +36,7 @@ State swept_by_kernel(const Simulation& simulation, int sweeps)
     return state;
 }
 
-/// Likewise by Algorithm 3.1 on general blocks.
+/// The velocities after so many sweeps of Algorithm 3.1 on general blocks.
 Eigen::VectorXd swept_by_blocks(const StepProblem& step, int sweeps)
 {
     multibody::Iterate x(step.problem, step.warm_impulse);
@@ -44,7 +44,7 @@ Eigen::VectorXd swept_by_blocks(const StepProblem& step, int sweeps)
     return x.velocity();
 }
 
-/// Likewise of what is read from the file that is written.
+/// The velocities after so many sweeps on general blocks, of the step as it is read back from a file.
 Eigen::VectorXd swept_from_file(const StepProblem& step, int sweeps)
 {
     const auto folder = std::filesystem::temp_directory_path();
@@ -58,7 +58,7 @@ Eigen::VectorXd swept_from_file(const StepProblem& step, int sweeps)
     return bodies.in_order_of_matrices(x.velocity());
 }
 
-/// The largest difference of velocities over the largest speed, and of rim velocities likewise.
+/// The largest difference of velocities over the largest speed, and of rim velocities over the largest of these.
 double worst_difference(const State& kernel, const multibody::Problem& problem, const Eigen::VectorXd& blocks)
 {
     double difference = 0.0, rim_difference = 0.0, speed = 0.0, rim_speed = 0.0;

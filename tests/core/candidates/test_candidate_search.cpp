@@ -67,7 +67,7 @@ std::size_t check_pairs(const World& world)
     return within;
 }
 
-/// Likewise for the patches of the walls.
+/// How many patches of walls are within reach of a sphere; each must be listed.
 std::size_t check_walls(const World& world)
 {
     const auto& state = world.state;

@@ -84,8 +84,8 @@ std::size_t check_pairs(const World& world)
     return within;
 }
 
-/// Likewise for the patches of all images of the walls, as seen from where the sphere was listed; and for what the
-/// wall's own motion will bring near in the step.
+/// How many patches of the walls, of all their images, are within reach of a sphere or will come near by the wall's own
+/// motion in the step. Each must be listed, and is looked at from where the sphere was listed.
 std::size_t check_walls(const World& world)
 {
     const auto& state = world.state;
@@ -123,7 +123,8 @@ void run_checked(World& world, int steps)
         patches += check_walls(world);
         world.step();
         // Walls that fast may press beads for which rigid contacts have no solution; that is told, and no harm here.
-        for (const Incident& incident : world.report.bodies.incidents) REQUIRE(incident.kind == Incident::Kind::pressed);
+        for (const Incident& incident : world.report.bodies.incidents)
+            REQUIRE(incident.kind == Incident::Kind::pressed);
     }
     CHECK(pairs > 50);
     CHECK(patches > 100);

@@ -38,7 +38,7 @@ scene::Scene scene_with(const std::vector<std::string>& overrides, const std::st
     return read_scene(folder.write("scene.toml", text), overrides).scene;
 }
 
-std::string refusal_of(const std::string& override_text)
+std::string refusal_of_override(const std::string& override_text)
 {
     return error_of<InputError>([&] { scene_with({override_text}); });
 }
@@ -94,42 +94,45 @@ TEST_CASE("the last override of a key counts", "[toml_overrides]")
 
 TEST_CASE("an override is checked like the file, and refused in its own words", "[toml_overrides]")
 {
-    CHECK(refusal_of("wall.gate.remov_at=2") ==
+    CHECK(refusal_of_override("wall.gate.remov_at=2") ==
           "--set wall.gate.remov_at=2: unknown key 'remov_at' in [[wall]]; did you mean 'remove_at'?");
-    CHECK(refusal_of("tim.step=1") == "--set tim.step=1: unknown key 'tim' in the scene; did you mean 'time'?");
-    CHECK(refusal_of("time.duration=-1") ==
+    CHECK(
+        refusal_of_override("tim.step=1") == "--set tim.step=1: unknown key 'tim' in the scene; did you mean 'time'?");
+    CHECK(refusal_of_override("time.duration=-1") ==
           "--set time.duration=-1: 'duration' must be a number of at least 0 [s], not -1");
-    CHECK(refusal_of("solver.stabilisation=match") ==
+    CHECK(refusal_of_override("solver.stabilisation=match") ==
           "--set solver.stabilisation=match: 'stabilisation' must be 'matched' or 'projected', not the string 'match'; "
           "did you mean 'matched'?");
-    CHECK(refusal_of("materials.steel=3") == "--set materials.steel=3: it must name one key of that table");
-    CHECK(refusal_of("wall=3") == "--set wall=3: 'wall' must be a list of tables [[wall]], not 3");
+    CHECK(refusal_of_override("materials.steel=3") == "--set materials.steel=3: it must name one key of that table");
+    CHECK(refusal_of_override("wall=3") == "--set wall=3: 'wall' must be a list of tables [[wall]], not 3");
 }
 
 TEST_CASE("an override of a table that is not there is refused with those that are", "[toml_overrides]")
 {
-    CHECK(refusal_of("wall.gat.remove_at=2") ==
+    CHECK(refusal_of_override("wall.gat.remove_at=2") ==
           "--set wall.gat.remove_at=2: the scene has no wall 'gat'; did you mean 'gate'?");
-    CHECK(refusal_of("wall.hopper.remove_at=2") ==
+    CHECK(refusal_of_override("wall.hopper.remove_at=2") ==
           "--set wall.hopper.remove_at=2: the scene has no wall 'hopper'; there is 'gate'");
-    CHECK(refusal_of("contact.glass-wood.friction=1") ==
+    CHECK(refusal_of_override("contact.glass-wood.friction=1") ==
           "--set contact.glass-wood.friction=1: the scene has no contact 'glass-wood'; there is 'glass-steel' and "
           "'steel-glass'");
-    CHECK(refusal_of("materials.wood.density=500") ==
+    CHECK(refusal_of_override("materials.wood.density=500") ==
           "--set materials.wood.density=500: the scene has no materials 'wood'; there is 'glass' and 'steel'");
-    CHECK(refusal_of("fill.2.count=1") == "--set fill.2.count=1: the scene has no fill '2'; there is '0' and '1'");
-    CHECK(refusal_of("sensor.flow.to=1") == "--set sensor.flow.to=1: the scene has no sensor 'flow'");
+    CHECK(refusal_of_override("fill.2.count=1") ==
+          "--set fill.2.count=1: the scene has no fill '2'; there is '0' and '1'");
+    CHECK(refusal_of_override("sensor.flow.to=1") == "--set sensor.flow.to=1: the scene has no sensor 'flow'");
 }
 
 TEST_CASE("an override that is not key=value is refused", "[toml_overrides]")
 {
-    CHECK(refusal_of("seed") == "--set seed: must be key=value on one line");
-    CHECK(refusal_of("seed=\n3") == "--set seed= 3: must be key=value on one line");
-    CHECK(refusal_of("=3") == "--set =3: must be key=value on one line");
-    CHECK(refusal_of("time..step=3") == "--set time..step=3: its keys must be names joined by dots");
-    CHECK(refusal_of("seed=[1") == "--set seed=[1: '[1' is not a TOML value");
-    CHECK(refusal_of("title=\xff").starts_with("--set title=\xff: ")); // not UTF-8
-    CHECK(refusal_of("seed=") == "--set seed=: '' is not a TOML value");
-    CHECK(refusal_of("fill.0.count.x=1") == "--set fill.0.count.x=1: 'count' is 10 and has no keys");
-    CHECK(refusal_of("seed.x=1") == "--set seed.x=1: 'seed' must be a whole number of at least 0, not a table");
+    CHECK(refusal_of_override("seed") == "--set seed: must be key=value on one line");
+    CHECK(refusal_of_override("seed=\n3") == "--set seed= 3: must be key=value on one line");
+    CHECK(refusal_of_override("=3") == "--set =3: must be key=value on one line");
+    CHECK(refusal_of_override("time..step=3") == "--set time..step=3: its keys must be names joined by dots");
+    CHECK(refusal_of_override("seed=[1") == "--set seed=[1: '[1' is not a TOML value");
+    CHECK(refusal_of_override("title=\xff").starts_with("--set title=\xff: ")); // not UTF-8
+    CHECK(refusal_of_override("seed=") == "--set seed=: '' is not a TOML value");
+    CHECK(refusal_of_override("fill.0.count.x=1") == "--set fill.0.count.x=1: 'count' is 10 and has no keys");
+    CHECK(
+        refusal_of_override("seed.x=1") == "--set seed.x=1: 'seed' must be a whole number of at least 0, not a table");
 }

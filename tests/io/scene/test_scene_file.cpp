@@ -12,7 +12,7 @@ using namespace talus::test;
 namespace
 {
 
-std::string refusal_of(const SceneFolder& folder, const std::string& text)
+std::string refusal_of_scene(const SceneFolder& folder, const std::string& text)
 {
     const auto path = folder.write("scene.toml", text);
     return folder.without_folder(error_of<InputError>([&] { read_scene(path); }));
@@ -72,10 +72,10 @@ TEST_CASE("the place of a key is where it stands, or the table around it", "[sce
 TEST_CASE("a file that is no scene is refused in one sentence", "[scene_file]")
 {
     const SceneFolder folder;
-    CHECK(refusal_of(folder, "seed = \n").starts_with("scene.toml:1:8: not TOML: "));
-    CHECK(refusal_of(folder, "seed = 1\nseed = 2\n").starts_with("scene.toml:2:"));
-    CHECK(refusal_of(folder, "seed = tru\n").find('\n') == std::string::npos);
-    CHECK(refusal_of(folder, std::string((1 << 20) + 1, '#')) ==
+    CHECK(refusal_of_scene(folder, "seed = \n").starts_with("scene.toml:1:8: not TOML: "));
+    CHECK(refusal_of_scene(folder, "seed = 1\nseed = 2\n").starts_with("scene.toml:2:"));
+    CHECK(refusal_of_scene(folder, "seed = tru\n").find('\n') == std::string::npos);
+    CHECK(refusal_of_scene(folder, std::string((1 << 20) + 1, '#')) ==
           "scene.toml: a scene file has at most 1048576 bytes, this one 1048577");
     CHECK(folder.without_folder(error_of<InputError>([&] { read_scene(folder.path() / "none.toml"); })) ==
           "none.toml: no such file");
@@ -86,9 +86,10 @@ TEST_CASE("a missing or broken mesh is refused at the key that names it", "[scen
 {
     const SceneFolder folder;
     const std::string scene = "[[wall]]\nname = 'w'\nmaterial = 'a'\nmesh = 'w.stl'\n";
-    CHECK(refusal_of(folder, scene) == "scene.toml:4:8: wall 'w': w.stl: no such file");
+    CHECK(refusal_of_scene(folder, scene) == "scene.toml:4:8: wall 'w': w.stl: no such file");
     folder.write("w.stl", "solid\nfacet\n");
-    CHECK(refusal_of(folder, scene) == "scene.toml:4:8: wall 'w': w.stl:3: the file ends where 'normal' is wanted");
+    CHECK(
+        refusal_of_scene(folder, scene) == "scene.toml:4:8: wall 'w': w.stl:3: the file ends where 'normal' is wanted");
 }
 
 TEST_CASE("spheres and sieves are read from beside the scene, scaled and then moved", "[scene_file]")
@@ -110,12 +111,12 @@ TEST_CASE("a broken file of spheres or sieves is refused at the key that names i
 {
     const SceneFolder folder;
     const std::string fill = "[[fill]]\nmaterial = 'a'\narrangement = 'file'\nfile = 's.csv'\n";
-    CHECK(refusal_of(folder, fill) == "scene.toml:4:8: s.csv: no such file");
+    CHECK(refusal_of_scene(folder, fill) == "scene.toml:4:8: s.csv: no such file");
     folder.write("s.csv", "x,y,z\n0,0\n");
-    CHECK(refusal_of(folder, fill) == "scene.toml:4:8: s.csv:2: the header names 3 columns, this line has 2");
+    CHECK(refusal_of_scene(folder, fill) == "scene.toml:4:8: s.csv:2: the header names 3 columns, this line has 2");
     const std::string pour = "[[pour]]\nregion = { max = [1, 1, 1] }\n[[pour.species]]\nmaterial = 'a'\nshare = 1\n"
                              "diameter = { distribution = 'sieve', file = 's.csv' }\n";
-    CHECK(refusal_of(folder, pour) ==
+    CHECK(refusal_of_scene(folder, pour) ==
           "scene.toml:6:45: s.csv:1: unknown column 'x'; the header may name 'size_mm', 'size_m' and "
           "'passing_percent'");
 }

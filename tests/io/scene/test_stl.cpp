@@ -39,7 +39,7 @@ std::string binary_square(std::uint32_t count = 2, float last_coordinate = 0.0F)
     return bytes;
 }
 
-std::string refusal_of(const std::string& bytes)
+std::string refusal_of_stl(const std::string& bytes)
 {
     const SceneFolder folder;
     const auto path = folder.write("w.stl", bytes);
@@ -85,31 +85,32 @@ TEST_CASE(
 
 TEST_CASE("broken ASCII is refused with its line", "[stl]")
 {
-    CHECK(refusal_of("solid\n" + facet) == "w.stl:9: the file ends where 'facet' or 'endsolid' is wanted");
-    CHECK(refusal_of("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\n") ==
+    CHECK(refusal_of_stl("solid\n" + facet) == "w.stl:9: the file ends where 'facet' or 'endsolid' is wanted");
+    CHECK(refusal_of_stl("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\n") ==
           "w.stl:6: 'vertex' is wanted here, not 'endloop'");
-    CHECK(refusal_of("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n") ==
+    CHECK(refusal_of_stl("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n") ==
           "w.stl:4: 'zero' is not a finite number");
-    CHECK(refusal_of("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 nan 0\n") ==
+    CHECK(refusal_of_stl("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 nan 0\n") ==
           "w.stl:4: 'nan' is not a finite number");
-    CHECK(refusal_of("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 1,5 0\n") ==
+    CHECK(refusal_of_stl("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 1,5 0\n") ==
           "w.stl:4: '1,5' is not a finite number");
-    CHECK(refusal_of("solid\n" + facet + "endsolid\nrubbish\n") == "w.stl:10: 'solid' is wanted here, not 'rubbish'");
-    CHECK(refusal_of("solid empty\nendsolid empty\n") == "w.stl: it has no triangles");
+    CHECK(
+        refusal_of_stl("solid\n" + facet + "endsolid\nrubbish\n") == "w.stl:10: 'solid' is wanted here, not 'rubbish'");
+    CHECK(refusal_of_stl("solid empty\nendsolid empty\n") == "w.stl: it has no triangles");
 }
 
 TEST_CASE("broken binary is refused with what it lacks", "[stl]")
 {
-    CHECK(refusal_of(binary_square().substr(0, 150)) ==
+    CHECK(refusal_of_stl(binary_square().substr(0, 150)) ==
           "w.stl: as binary STL with 2 triangles it must have 184 bytes, but it has 150");
-    CHECK(refusal_of(binary_square() + "tail") ==
+    CHECK(refusal_of_stl(binary_square() + "tail") ==
           "w.stl: as binary STL with 2 triangles it must have 184 bytes, but it has 188");
-    CHECK(refusal_of(binary_square(4000000000)) ==
+    CHECK(refusal_of_stl(binary_square(4000000000)) ==
           "w.stl: as binary STL with 4000000000 triangles it must have 200000000084 bytes, but it has 184");
-    CHECK(refusal_of(binary_square(2, std::numeric_limits<float>::quiet_NaN())) ==
+    CHECK(refusal_of_stl(binary_square(2, std::numeric_limits<float>::quiet_NaN())) ==
           "w.stl: triangle 2 has a coordinate that is not a finite number");
-    CHECK(refusal_of("not a mesh") == "w.stl: neither ASCII STL nor long enough for binary STL");
-    CHECK(refusal_of(binary_square(0).substr(0, 84)) == "w.stl: it has no triangles");
+    CHECK(refusal_of_stl("not a mesh") == "w.stl: neither ASCII STL nor long enough for binary STL");
+    CHECK(refusal_of_stl(binary_square(0).substr(0, 84)) == "w.stl: it has no triangles");
 }
 
 TEST_CASE("a mesh file that is missing, empty, a folder or too large is refused", "[stl]")

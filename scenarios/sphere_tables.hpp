@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "scenarios/allowed.hpp"
+
+/// Materials, contacts, and the spheres there are: [materials.NAME], [[contact]], [[fill]], [[pour]] and [[outlet]].
+namespace talus::scene
+{
+
+struct MaterialTable {
+    std::string name; ///< the table's own name: [materials.NAME]
+    double density = 2500.0;
+
+    static void describe(auto& self, auto&& key) { key("density", self.density, above(0.0), "kg/m3", "of the solid"); }
+};
+
+struct ContactTable {
+    std::vector<std::string> between; ///< two materials
+    double friction = 0.5;
+    double restitution = 0.0;
+    double rolling_friction = 0.0;
+    double stiffness = infinity;
+
+    static void describe(auto& self, auto&& key)
+    {
+        key("between", self.between, required(any()), "", "the two materials");
+        key("friction", self.friction, at_least(0.0), "", "Coulomb's coefficient");
+        key("restitution", self.restitution, talus::scene::between(0.0, 1.0), "",
+            "Newton's coefficient: rebound speed / impact speed");
+        key("rolling_friction", self.rolling_friction, at_least(0.0), "",
+            "largest rolling torque / (normal force x R*), R* = r1 r2 / (r1 + r2), at a wall the radius");
+        key("stiffness", self.stiffness, or_infinite(above(0.0)), "N/m",
+            "of the normal contact; inf: rigid; only with matched");
+    }
+};
+
+struct RegionTable {
+    std::string shape = "box";
+    Vec3 min = Vec3::Zero();
+    Vec3 max = Vec3::Zero();
+    Vec3 base = Vec3::Zero();
+    Vec3 axis = Vec3::UnitZ();
+    double radius = 0.0;
+    double height = 0.0;
+
+    static void describe(auto& self, auto&& key) { describe(self, key, {"box", "cylinder"}); }
+
+    static void describe(auto& self, auto&& key, std::vector<std::string_view> shapes)
+    {
+        key("shape", self.shape, deciding(one_of(std::move(shapes))), "", "");
+        key("min", self.min, only_for({"box"}, any()), "m", "lower corner");
+        key("max", self.max, required(only_for({"box"}, any())), "m", "upper corner");
+        key("base", self.base, only_for({"cylinder"}, any()), "m", "centre of the first end");
+        key("axis", self.axis, only_for({"cylinder"}, any()), "", "direction from the first end to the second");
+        key("radius", self.radius, required(only_for({"cylinder"}, at_least(0.0))), "m", "of the cylinder");
+        key("height", self.height, required(only_for({"cylinder"}, at_least(0.0))), "m", "distance of the ends");
+    }
+};
+
+struct DiameterTable {
+    std::string distribution = "constant";
+    double value = 0.0;
+    double mean = 0.0;
+    double median = 0.0;
+    double deviation = 0.0;
+    double min = 0.0;
+    double max = 0.0;
+    std::string file = {};
+
+    std::vector<double> sieve_sizes = {};   ///< [m], of the file, filled in by io, rising
+    std::vector<double> sieve_passing = {}; ///< share of the mass that passes each, from 0 to 1
+
+    static void describe(auto& self, auto&& key)
+    {
+        key("distribution", self.distribution,
+            deciding(one_of({"constant", "uniform", "normal", "lognormal", "sieve"})), "",
+            "of diameters: by number, but for a sieve analysis, which is by mass");
+        key("value", self.value, required(only_for({"constant"}, at_least(0.0))), "m", "the diameter");
+        key("mean", self.mean, required(only_for({"normal"}, above(0.0))), "m", "before min and max cut it");
+        key("median", self.median, required(only_for({"lognormal"}, above(0.0))), "m", "before min and max cut it");
+        key("deviation", self.deviation, required(only_for({"normal", "lognormal"}, above(0.0))), "",
+            "standard deviation; normal: of the diameter [m], lognormal: of its natural logarithm");
+        key("min", self.min, required(only_for({"uniform", "normal", "lognormal"}, at_least(0.0))), "m",
+            "the smallest");
+        key("max", self.max, required(only_for({"uniform", "normal", "lognormal"}, at_least(0.0))), "m", "the largest");
+        key("file", self.file, required(only_for({"sieve"}, any())), "",
+            "a CSV file, beside the scene file: size_mm or size_m, and passing_percent of the mass");
+    }
+
+    /// Whether the scene gives a diameter here, where it may be left out.
+    bool given() const { return distribution != "constant" || value != 0.0; }
+};
+
+/// One kind of sphere among several in a fill or a pour.
+struct SpeciesTable {
+    std::string material;
+    DiameterTable diameter;
+    double share = 1.0;
+
+    static void describe(auto& self, auto&& key)
+    {
+        key("material", self.material, required(any()), "", "of the spheres");
+        key("diameter", self.diameter, required(any()), "m", "a number, or a table with a distribution");
+        key("share", self.share, required(above(0.0)), "",
+            "of the mass, in proportion to the sum of the shares of all species");
+    }
+};
+
+/// Spheres as a file lists them [m, m/s, rad/s]. A list other than that of positions is empty where the file has none.
+struct SphereList {
+    std::vector<Vec3> positions;
+    std::vector<double> radii;
+    std::vector<Vec3> velocities;
+    std::vector<Vec3> angular_velocities;
+};
+
+struct FillTable {
+    std::string arrangement = "lattice";
+    std::string material;
+    DiameterTable diameter;
+    std::vector<SpeciesTable> species;
+    std::int64_t count = 0;
+    RegionTable region;
+    double spacing = 1.1;
+    std::string file;
+    double scale = 1.0;
+    Vec3 translate = Vec3::Zero();
+    Vec3 velocity = Vec3::Zero();
+    Vec3 angular_velocity = Vec3::Zero();
+
+    SphereList spheres; ///< of the file, filled in by io, scaled and translated
+
+    static void describe(auto& self, auto&& key)
+    {
+        key("arrangement", self.arrangement, deciding(one_of({"lattice", "random", "file"})), "",
+            "lattice: a jittered lattice, filled from below; random: anywhere without overlap (loose fills only); "
+            "file: as a file lists them");
+        key("material", self.material, any(), "", "of the spheres; left out where there are species");
+        key("diameter", self.diameter, any(), "m",
+            "a number, or a table with a distribution; left out where there are species, or where the file has radii");
+        key("species", self.species, only_for({"lattice", "random"}, any()), "",
+            "several kinds of spheres, mixed at random");
+        key("count", self.count, required_but_for({"file"}, between(0, 100000000)), "",
+            "how many spheres are there at the start; file: 0, or as many as it has");
+        key("region", self.region, required(only_for({"lattice", "random"}, any())), "",
+            "where; spheres lie wholly inside");
+        key("spacing", self.spacing, only_for({"lattice"}, between(1.0, 100.0)), "",
+            "distance of the lattice's points / largest diameter");
+        key("file", self.file, required(only_for({"file"}, any())), "",
+            "a .vtp, .vtu or .csv file of spheres, beside the scene file");
+        key("scale", self.scale, only_for({"file"}, above(0.0)), "",
+            "the file's positions, radii and velocities times this are in m and m/s");
+        key("translate", self.translate, only_for({"file"}, any()), "m", "moved by this after scaling");
+        key("velocity", self.velocity, any(), "m/s", "of the spheres at the start, added to that of a file");
+        key("angular_velocity", self.angular_velocity, any(), "rad/s",
+            "of the spheres at the start, added to that of a file");
+    }
+};
+
+struct PourTable {
+    std::string name;
+    std::string material;
+    DiameterTable diameter;
+    std::vector<SpeciesTable> species;
+    std::int64_t count = 0;
+    double mass = 0.0;
+    double rate = 0.0;
+    double mass_rate = 0.0;
+    RegionTable region;
+    Vec3 velocity = Vec3::Zero();
+    double start = 0.0;
+
+    static void describe(auto& self, auto&& key)
+    {
+        key("name", self.name, any(), "", "for --set and the report");
+        key("material", self.material, any(), "", "of the spheres; left out where there are species");
+        key("diameter", self.diameter, any(), "m",
+            "a number, or a table with a distribution; left out where there are species");
+        key("species", self.species, any(), "", "several kinds of spheres, mixed at random");
+        key("count", self.count, between(0, 100000000), "", "how many spheres in all; 0: by 'mass'");
+        key("mass", self.mass, at_least(0.0), "kg", "of all spheres, reached by the last of them; 0: by 'count'");
+        key("rate", self.rate, at_least(0.0), "1/s", "spheres per second; 0: by 'mass_rate'");
+        key("mass_rate", self.mass_rate, at_least(0.0), "kg/s", "mass per second; 0: by 'rate'");
+        key("region", self.region, required(any()), "", "where they appear; never overlapping anything");
+        key("velocity", self.velocity, any(), "m/s", "with which they appear");
+        key("start", self.start, at_least(0.0), "s", "when the pour begins");
+    }
+};
+
+/// The names of all materials in a fill or a pour.
+std::vector<std::string> materials_in(const auto& table)
+{
+    if (table.species.empty()) return {table.material};
+    std::vector<std::string> names;
+    for (const SpeciesTable& species : table.species) names.push_back(species.material);
+    return names;
+}
+
+struct OutletTable {
+    std::string name;
+    RegionTable region;
+
+    static void describe(auto& self, auto&& key)
+    {
+        key("name", self.name, any(), "", "for --set and the report");
+        key("region", self.region, required(any()), "", "a sphere whose centre enters it leaves the world");
+    }
+};
+
+} // namespace talus::scene
