@@ -43,8 +43,10 @@ class Programs:
         program, *rest = shlex.split(command)
         if program.endswith(".py"):
             return [sys.executable, ROOT / program, *rest, "--talus", self.talus]
+        if program == "tests/run":
+            return [ROOT / program, *rest]
         argv = [self.talus.parent / Path(program).name, *rest]
-        if program == "build/talus":
+        if (program, rest[0]) == ("build/talus", "run"):
             argv += ["-o", folder, "--force", "--quiet"]
         if Path(program).name.startswith("test_"):
             argv += ["-r", "compact"]  # else lines are broken, in numbers too
@@ -120,8 +122,13 @@ def measure_all(rows, tables, talus, commit, store):
                 figures, seconds = measure(item, programs)
                 told = item.shown.format(**figures)
             else:
+                for command in item.before:
+                    programs(item.name, command)
                 run = programs(item.name, item.command)
-                figures, seconds, told = {"table": run.text.strip()}, run.seconds, "done"
+                rows = [line for line in run.text.splitlines() if line.startswith("|")]
+                if len(rows) < 3:
+                    raise ResultsError(f"{item.command} printed no table: {run.text[-500:]}")
+                figures, seconds, told = {"table": "\n".join(rows)}, run.seconds, "done"
         except (ResultsError, OSError, KeyError, TypeError, ValueError, StopIteration) as error:
             print(f"  failed: {error}", flush=True)
             failed += 1
