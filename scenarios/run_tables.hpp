@@ -42,7 +42,8 @@ struct WorldTable {
             "by five diameters");
         key("max", self.max, or_infinite(any()), "m", "upper corner; inf: from the same, and open upwards");
         key("periodic", self.periodic, one_of({"x", "y", "z"}), "",
-            "axes along which the world repeats itself from 'min' to 'max'; two at most");
+            "axes along which the world repeats itself from 'min' to 'max', 2.2 diameters of the largest sphere at "
+            "least");
         key("rotation", self.rotation, any(), "",
             "false: spheres do not turn, so that friction acts as between blocks; no rolling resistance then");
         key("on_escape", self.on_escape, one_of({"stop", "remove"}), "",

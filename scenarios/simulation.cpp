@@ -38,7 +38,8 @@ bool IncidentPolicy::stops(const StepReport& report) const
 {
     return std::ranges::any_of(report.bodies.incidents, [&](const Incident& incident) {
         const bool may_be_removed = incident.kind == Incident::Kind::escaped && !incident.of_piston();
-        return !(may_be_removed && remove_escaped) && !(incident.kind == Incident::Kind::pressed && go_on_pressed);
+        const bool may_yield = incident.kind == Incident::Kind::pressed;
+        return !incident.is_harmless() && !(may_be_removed && remove_escaped) && !(may_yield && go_on_pressed);
     });
 }
 

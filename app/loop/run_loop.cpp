@@ -13,7 +13,7 @@ namespace talus
 namespace
 {
 
-/// Escapes, and presses, told one by one on standard error.
+/// Escapes, and presses, told one by one on standard error; the walls that appear inside spheres are all told.
 constexpr std::size_t incidents_told = 5;
 
 std::vector<std::string> metrics_columns(const Simulation& simulation)
@@ -136,6 +136,12 @@ void RunLoop::tell_incidents(const StepReport& report)
 {
     std::size_t escapes = simulation_.escaped.size();
     for (const Incident& incident : report.bodies.incidents) {
+        if (incident.is_harmless()) {
+            progress_.finish();
+            warn("t = {:.6g} s: {}; they are pushed out\n", simulation_.state.time,
+                describe(incident, names_of(simulation_.model.walls)));
+            continue;
+        }
         const bool pressed = incident.kind == Incident::Kind::pressed;
         const std::size_t told = pressed ? presses_told_++ : escapes++;
         if (told > incidents_told) continue;

@@ -3,6 +3,7 @@
 
 #include "core/base/vector.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -38,6 +39,20 @@ struct Periodicity {
 
     /// The shortest of a difference of positions and its images.
     Vec3 nearest_image(const Vec3& difference) const { return difference + shift_towards(difference, Vec3::Zero()); }
+
+    /// How far two boxes are apart along each axis, by those of their images that are nearest there; 0 where they meet.
+    Vec3 apart(const Box& a, const Box& b) const
+    {
+        Vec3 gap = (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0);
+        for (int d = 0; d < 3; ++d) {
+            if (!along(d)) continue;
+            const double ahead = b.min[d] - a.max[d];
+            const double behind_b = ahead - length[d] * std::floor(ahead / length[d]); // from a on to an image of b
+            const double behind_a = length[d] - behind_b - (a.max[d] - a.min[d]) - (b.max[d] - b.min[d]);
+            gap[d] = std::max(0.0, std::min(behind_a, behind_b));
+        }
+        return gap;
+    }
 
     /// The image of a position that lies inside the cell.
     Vec3 wrapped(const Vec3& x) const

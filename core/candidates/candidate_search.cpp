@@ -113,10 +113,8 @@ bool can_touch(const CandidateList& list, const State& state, const Model& model
     const double ra = needed_radius(state, model, static_cast<std::size_t>(pair.a));
     const double rb = needed_radius(state, model, static_cast<std::size_t>(pair.b));
     const Box a = list.listed_box[pair.a].grown(-ra);
-    const Box& box_b = list.listed_box[pair.b];
-    const Box b = box_b.grown(-rb).shifted(model.periodicity.shift_towards(box_b.center(), a.center()));
-    const Vec3 apart = (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0);
-    return apart.squaredNorm() <= (ra + rb) * (ra + rb);
+    const Box b = list.listed_box[pair.b].grown(-rb);
+    return model.periodicity.apart(a, b).squaredNorm() <= (ra + rb) * (ra + rb);
 }
 
 void search_spheres(CandidateEntries& entries, const CandidateList& list, const OldPairs& old, const State& state,

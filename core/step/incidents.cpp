@@ -16,6 +16,9 @@ namespace
 /// Loaded contacts of this overlap join bodies to a group, in smallest diameters: far more than they have at rest.
 constexpr double joining_overlap = 0.1 * pressed_overlap;
 
+/// An overlap with a wall that has just appeared which tells that it stands inside a sphere, in smallest diameters.
+constexpr double inside = 0.05;
+
 /// Groups of spheres, each named by one of its spheres.
 class Groups
 {
@@ -84,6 +87,34 @@ std::vector<Incident> find_presses(const ContactNetwork& network, const State& s
             .walls = {press.walls.begin(), press.walls.end()},
             .overlap = press.overlap});
     }
+    return incidents;
+}
+
+std::vector<Incident> find_walls_inside(const ContactNetwork& network, const State& state, const Model& model)
+{
+    const ContactArrays& contacts = network.contacts.walls;
+    std::map<std::int32_t, Incident> found; // by wall
+    for (std::size_t tile = 0; tile < contacts.tiles(); ++tile)
+        for (const std::size_t k : contacts.of_tile(tile)) {
+            const auto [sphere, wall] = std::pair(contacts.contact[k].a, contacts.contact[k].b);
+            const ContactGeometry& geometry = contacts.geometry[k];
+            const double age = state.time - model.walls[wall].appear_at;
+            const bool is_new = model.walls[wall].appear_at > 0.0 && age < 2.0 * model.time_step &&
+                                !network.carried.walls.touch[geometry.slot].touched();
+            if (!is_new || -geometry.gap < inside * model.min_diameter) continue;
+            Incident& incident = found[wall];
+            incident.kind = Incident::Kind::appeared_inside;
+            incident.spheres.push_back(state.id[sphere]);
+            incident.walls = {wall};
+            if (-geometry.gap <= incident.overlap) continue;
+            incident.overlap = -geometry.gap;
+            incident.id = state.id[sphere];
+            incident.position = state.position[sphere];
+            incident.speed = state.motion[sphere].velocity.norm();
+            incident.last_wall = wall;
+        }
+    std::vector<Incident> incidents;
+    for (auto& [wall, incident] : found) incidents.push_back(std::move(incident));
     return incidents;
 }
 

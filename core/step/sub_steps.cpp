@@ -46,7 +46,8 @@ double fastest_sphere(const State& state, const Model& model)
 bool goes_on(const StepReport& report)
 {
     return std::ranges::all_of(report.bodies.incidents, [](const Incident& incident) {
-        return incident.kind == Incident::Kind::escaped || incident.kind == Incident::Kind::pressed;
+        return incident.kind == Incident::Kind::escaped || incident.kind == Incident::Kind::pressed ||
+               incident.is_harmless();
     });
 }
 

@@ -178,6 +178,9 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     }
     if (model.physics.wall_loads) report.wall_loads = wall_loads(network, state, model.walls.size());
 
+    const bool may_appear = std::ranges::any_of(model.walls, [](const Wall& wall) { return wall.appear_at > 0.0; });
+    auto walls_inside = may_appear ? find_walls_inside(network, state, model) : std::vector<Incident>{};
+
     // Positions with the new velocity: x ← x + h v.
     enter(Phase::positions);
     move_spheres(state, h);
@@ -194,6 +197,7 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     report.outcome = carry_impulses(network, state, model, h);
     report.bodies = survey_state(state, model, step);
     report.bodies.load_work = load_work;
+    for (Incident& wall : walls_inside) report.bodies.incidents.push_back(std::move(wall));
     if (report.outcome.newly_jammed > 0)
         for (Incident& press : find_presses(network, state, model)) report.bodies.incidents.push_back(std::move(press));
     return report;

@@ -27,6 +27,8 @@ const char* kind_name(Incident::Kind kind)
         return "blow_up";
     case Incident::Kind::pressed:
         return "pressed";
+    case Incident::Kind::appeared_inside:
+        return "appeared_inside";
     }
     return "";
 }
@@ -42,6 +44,8 @@ const char* sentence_of(Incident::Kind kind)
         return "moves faster than anything in this scene can";
     case Incident::Kind::pressed:
         return "is pressed so that no motion obeys its contacts";
+    case Incident::Kind::appeared_inside:
+        return "is where a wall appears";
     }
     return "";
 }
@@ -75,13 +79,22 @@ std::string describe_press(const Incident& incident, const std::vector<std::stri
                       : fmt::format("{} {}", walls.size() == 1 ? "the wall" : "the walls", enumeration(walls)));
 }
 
+std::string describe_wall_inside(const Incident& incident, const std::vector<std::string>& wall_names)
+{
+    const auto& x = incident.position;
+    return fmt::format(
+        "the wall '{}' appears inside {} {}: it overlaps sphere {} at ({:.4g}, {:.4g}, {:.4g}) m by {:.2g} m",
+        wall_names[static_cast<std::size_t>(incident.walls.front())], incident.spheres.size(),
+        incident.spheres.size() == 1 ? "sphere" : "spheres", incident.id, x.x(), x.y(), x.z(), incident.overlap);
+}
+
 Json to_json(const Incident& incident, const std::vector<std::string>& wall_names)
 {
     const auto& x = incident.position;
     Json json = {{"kind", kind_name(incident.kind)}, {"id", incident.id}, {"position", {x.x(), x.y(), x.z()}},
         {"speed", incident.speed}, {"last_wall", nullptr}, {"sentence", describe(incident, wall_names)}};
     if (incident.last_wall >= 0) json["last_wall"] = wall_names[static_cast<std::size_t>(incident.last_wall)];
-    if (incident.kind != Incident::Kind::pressed) return json;
+    if (incident.walls.empty()) return json;
     json["spheres"] = incident.spheres;
     json["walls"] = Json::array();
     for (const auto wall : incident.walls) json["walls"].push_back(wall_names[static_cast<std::size_t>(wall)]);
@@ -152,6 +165,7 @@ Json to_json(const TimingSummary& timing)
 std::string describe(const Incident& incident, const std::vector<std::string>& wall_names)
 {
     if (incident.kind == Incident::Kind::pressed) return describe_press(incident, wall_names);
+    if (incident.kind == Incident::Kind::appeared_inside) return describe_wall_inside(incident, wall_names);
     const auto& x = incident.position;
     if (incident.of_piston())
         return fmt::format("the wall '{}' {}: its middle is at ({:.4g}, {:.4g}, {:.4g}) m with {:.4g} m/s",

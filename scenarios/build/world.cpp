@@ -35,7 +35,9 @@ void find_diameters(Model& model, const std::vector<Fill>& fills, const std::vec
 
 Periodicity build_periodicity(const scene::WorldTable& table, double max_diameter)
 {
-    constexpr double shortest = 4.0; // diameters: a sphere must not meet two images of another
+    // Diameters. At 2 a sphere would meet two images of another; some slack is for open contacts, and for the radii
+    // that files of spheres round to 32 bits.
+    constexpr double shortest = 2.2 * (1.0 - 1e-6);
     Periodicity periodicity;
     for (const auto& name : table.periodic) {
         const int d = name[0] - 'x';
@@ -44,12 +46,10 @@ Periodicity build_periodicity(const scene::WorldTable& table, double max_diamete
             throw SceneError("world.periodic", "along the periodic axis " + name + " 'min' and 'max' must be given");
         if (length < shortest * max_diameter)
             throw SceneError("world.periodic",
-                "along the periodic axis " + name + " the world must be at least four diameters of the largest sphere");
+                "along the periodic axis " + name + " the world must be at least 2.2 diameters of the largest sphere");
         periodicity.origin[d] = table.min[d];
         periodicity.length[d] = length;
     }
-    if (periodicity.along(0) && periodicity.along(1) && periodicity.along(2))
-        throw SceneError("world.periodic", "two axes may be periodic, not all three");
     return periodicity;
 }
 

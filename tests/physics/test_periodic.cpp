@@ -74,6 +74,37 @@ TEST_CASE("bodies that collide across a periodic border do as those in the middl
     }
 }
 
+TEST_CASE("a cell 2.2 diameters long along all three axes does as eight of them side by side", "[periodicity]")
+{
+    // Three spheres of different sizes that fly about and collide, each with images of the others and, in the large
+    // cell, with their copies. The law has one answer, so that the orders of sweeps do not matter.
+    const auto solver = GENERATE(rigid_settings(), matched_settings());
+    const double edge = 2.2 * 0.01;
+    World small = without_gravity({.restitution = 0.8}, solver, {Vec3::Zero(), Vec3::Constant(edge)});
+    World large = without_gravity({.restitution = 0.8}, solver, {Vec3::Zero(), Vec3::Constant(2.0 * edge)});
+    const std::vector<Vec3> places = {Vec3(0.001, 0.002, 0.021), Vec3(0.012, 0.004, 0.011), Vec3(0.005, 0.015, 0.009)};
+    const std::vector<Vec3> velocities = {Vec3(0.3, 0.1, -0.2), Vec3(-0.4, 0.2, 0.15), Vec3(0.1, -0.5, 0.3)};
+    const std::vector<double> radii = {0.005, 0.0043, 0.0036};
+    for (std::size_t k = 0; k < 3; ++k) small.add_sphere(places[k], velocities[k], Vec3::Zero(), radii[k]);
+    for (int copy = 0; copy < 8; ++copy)
+        for (std::size_t k = 0; k < 3; ++k)
+            large.add_sphere(
+                places[k] + edge * Vec3(copy & 1, copy >> 1 & 1, copy >> 2), velocities[k], Vec3::Zero(), radii[k]);
+    int impacts = 0;
+    for (int step = 0; step < 2500; ++step) {
+        const Vec3 before = small.velocity(0);
+        small.step();
+        large.step();
+        impacts += (small.velocity(0) - before).norm() > 1e-3;
+    }
+    REQUIRE(impacts > 10);
+    for (int id = 0; id < 24; ++id) {
+        CHECK((large.velocity(id) - small.velocity(id % 3)).norm() < 1e-6);
+        const Vec3 apart = large.position(id) - small.position(id % 3);
+        CHECK(small.model.periodicity.nearest_image(apart).norm() < 1e-6);
+    }
+}
+
 TEST_CASE("a free sphere comes in again on the other side with its velocity", "[periodicity]")
 {
     World world = without_gravity({}, rigid_settings(), along_x_and_y());

@@ -13,13 +13,14 @@ using namespace talus;
 namespace
 {
 
-/// Cells of boxes of edge 1 to 2: long and short ones, one and two periodic axes, not at the origin.
+/// Cells of boxes of edge 1 to 2: long and short ones, one to three periodic axes, not at the origin.
 const std::vector<Periodicity> cells = {
     {Vec3(-3, 0, 0), Vec3(12, infinity, infinity)},
     {Vec3(0, 5, 0), Vec3(infinity, 8, infinity)},
     {Vec3(0, 0, -20), Vec3(infinity, infinity, 8)},
     {Vec3(-4, -4, 0), Vec3(8, 8, infinity)},
     {Vec3(1, 0, 2), Vec3(9, infinity, 31)},
+    {Vec3(1, -3, 2), Vec3(8, 12, 9)},
 };
 
 constexpr double free_length = 10.0;
@@ -87,9 +88,31 @@ TEST_CASE("wrapped places lie in the cell, a whole number of cells away", "[peri
     CHECK(cell.shift_towards(Vec3(0.3, 0, 5), Vec3(-0.2, 7, 12)).isApprox(Vec3(-0.7, 0, 8)));
 }
 
+TEST_CASE("boxes are as far apart as their nearest images, in short cells too", "[periodicity]")
+{
+    const Periodicity cell{Vec3::Zero(), Vec3(2.2, infinity, 7)};
+    Random random(1);
+    const auto number = [&] { return 8.0 * uniform(random) - 4.0; };
+    for (int k = 0; k < 1000; ++k) {
+        const auto box = [&] {
+            const Vec3 x(number(), number(), number());
+            return Box{x, x}.extend(Vec3(x + 0.3 * Vec3(number(), number(), number())));
+        };
+        const Box a = box(), b = box();
+        Vec3 nearest = Vec3::Constant(infinity);
+        for (int d = 0; d < 3; ++d)
+            for (int image = -9; image <= 9; ++image) {
+                const double shift = cell.along(d) ? image * cell.length[d] : 0.0;
+                const double gap = std::max({a.min[d] - b.max[d] - shift, b.min[d] + shift - a.max[d], 0.0});
+                nearest[d] = std::min(nearest[d], gap);
+            }
+        CHECK((cell.apart(a, b) - nearest).norm() < 1e-12);
+    }
+}
+
 TEST_CASE("pairs are found across periodic borders, each once", "[neighbor_search][periodicity]")
 {
-    const auto& periodicity = cells[GENERATE(range<std::size_t>(0, 5))];
+    const auto& periodicity = cells[GENERATE(range<std::size_t>(0, cells.size()))];
     const auto count = GENERATE(as<std::size_t>{}, 2, 25, 200);
     const auto seed = GENERATE(1u, 2u, 3u);
     const auto boxes = random_boxes(random_places(count, periodicity, seed), seed);
@@ -114,7 +137,7 @@ TEST_CASE("pairs are found across periodic borders, each once", "[neighbor_searc
 
 TEST_CASE("two tiles of one colour share no sphere through pairs across periodic borders", "[tiles][periodicity]")
 {
-    const auto& periodicity = cells[GENERATE(range<std::size_t>(0, 5))];
+    const auto& periodicity = cells[GENERATE(range<std::size_t>(0, cells.size()))];
     const auto seed = GENERATE(1u, 2u, 3u);
     const double shrink = GENERATE(1.0, 0.3); // of the boxes: more tiles
     const auto places = random_places(1500, periodicity, seed);

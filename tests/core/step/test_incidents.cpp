@@ -102,3 +102,28 @@ TEST_CASE("overlaps at the start, a shaken bed and a heavy plate are no presses"
         CHECK(incidents_in(world, 6000) == 0);
     }
 }
+
+TEST_CASE("a wall that appears inside spheres is told once, with those that it cuts", "[walls][incidents]")
+{
+    // Six spheres in a row along z, without gravity; a plate appears 0.3 d above the centre of the third, or between
+    // two.
+    const auto [height, cut] = GENERATE(table<double, std::vector<std::int64_t>>({{2.8 * d, {2}}, {3.1 * d, {}}}));
+    World world = make_world({}, production_settings(Stabilisation::matched), step);
+    world.model.gravity.setZero();
+    for (int k = 0; k < 6; ++k) world.add_sphere(Vec3(0, 0, (0.5 + 1.04 * k) * d));
+    world.add_wall(Disk{Vec3(0, 0, height), Vec3::UnitZ(), 0.1});
+    world.model.walls.back().appear_at = 10.0 * step;
+    std::vector<Incident> told;
+    for (int k = 0; k < 50; ++k) {
+        world.step();
+        for (const Incident& incident : world.report.bodies.incidents) told.push_back(incident);
+    }
+    REQUIRE(told.size() == (cut.empty() ? 0 : 1));
+    if (cut.empty()) return;
+    CHECK(told[0].kind == Incident::Kind::appeared_inside);
+    CHECK(told[0].spheres == cut);
+    CHECK(told[0].id == 2);
+    CHECK(told[0].walls == std::vector<std::int32_t>{0});
+    CHECK(told[0].overlap == Approx(0.5 * d - std::abs(height - (0.5 + 1.04 * 2) * d)));
+    CHECK(world.position(2).z() < (0.5 + 1.04 * 2) * d); // pushed out downwards
+}
