@@ -99,6 +99,7 @@ void print_explanations(const OpenedScene& opened, const OverlapCheck& overlaps)
     if (!report.accuracy.empty()) say("{}\n", report.accuracy);
     say("{}\n{}\n{}\n", report.step, report.model, report.overlap);
     print_overlaps_at_start(opened.simulation, overlaps);
+    for (const std::string& warning : report.warnings) warn("{}\n", warning);
 }
 
 void print_scene(const OpenedScene& opened, const OverlapCheck& overlaps)

@@ -89,4 +89,22 @@ std::string forecast_overlap(const Simulation& simulation)
         stiffness, of_layer);
 }
 
+std::vector<std::string> warnings_of(const scene::Scene& scene, const StepChoice& choice, const Model& model)
+{
+    constexpr double far_above = 10.0;
+    constexpr double tight = 1.5; // at 1.4 stacks of a lattice stood, at 1.8 they fell
+    std::vector<std::string> warnings;
+    if (choice.given && choice.step > far_above * choice.automatic())
+        warnings.push_back(text("the step of %.4g ms is %.3g times the automatic one: overlaps grow with its square",
+            1e3 * choice.step, choice.step / choice.automatic()));
+    const bool stands = !scene.world.rotation && model.physics.friction && !model.gravity.isZero();
+    for (std::size_t k = 0; k < scene.fill.size(); ++k)
+        if (stands && scene.fill[k].arrangement == "lattice" && scene.fill[k].spacing < tight)
+            warnings.push_back(
+                text("fill[%d]: without rotation the stacks of so tight a lattice stay upright; give it a "
+                     "'spacing' of 1.8, or arrange it at random",
+                    static_cast<int>(k)));
+    return warnings;
+}
+
 } // namespace talus

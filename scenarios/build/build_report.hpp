@@ -2,18 +2,21 @@
 #pragma once
 
 #include "scenarios/build/step_choice.hpp"
+#include "scenarios/scene.hpp"
 
 #include <string>
+#include <vector>
 
 namespace talus
 {
 
 /// What there is to tell of a simulation that was built, a line each.
 struct BuildReport {
-    std::string accuracy; ///< what the scene's accuracy picked; empty where it asks for none
-    std::string step;     ///< where the time step comes from
-    std::string model;    ///< what the run models and what it leaves out
-    std::string overlap;  ///< how stiff contacts are at most, and the overlap that it implies
+    std::string accuracy;                   ///< what the scene's accuracy picked; empty where it asks for none
+    std::string step;                       ///< where the time step comes from
+    std::string model;                      ///< what the run models and what it leaves out
+    std::string overlap;                    ///< how stiff contacts are at most, and the overlap that it implies
+    std::vector<std::string> warnings = {}; ///< what the scene asks for and hardly means
 };
 
 /// Where the step comes from. @param d the smallest diameter [m]
@@ -25,5 +28,8 @@ std::string explain_model(const Model& model);
 /// How soft `matched` makes contacts, k = 2.2 N_min/(W h²), and what overlap the bed will have for it, mean/d ≈
 /// 0.4 Z g h²/(N_min d), Z its height in diameters.
 std::string forecast_overlap(const Simulation& simulation);
+
+/// A step far above the automatic one, and lattices that will stand as they are laid.
+std::vector<std::string> warnings_of(const scene::Scene& scene, const StepChoice& choice, const Model& model);
 
 } // namespace talus

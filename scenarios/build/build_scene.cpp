@@ -125,7 +125,7 @@ BuiltScene build_scene(const scene::Scene& scene)
     model.solver = complete_solver(solver, scene.solver, simulation);
 
     BuildReport report{accuracy.explanation, explain_step(step, model.min_diameter), explain_model(model),
-        forecast_overlap(simulation)};
+        forecast_overlap(simulation), warnings_of(scene, step, model)};
     return {std::move(simulation), std::move(report)};
 }
 

@@ -158,6 +158,8 @@ StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation, 
     choice.step = choice.given ? scene.time.step.number : choice.automatic();
     if (!std::isfinite(choice.step))
         throw SceneError("time.step", "without gravity and speeds there is no automatic step: give one in seconds");
+    if (scene.time.duration > 0.0 && choice.step > scene.time.duration)
+        throw SceneError("time.step", "the step is longer than the run, 'duration'");
     choice.speed_limit = beyond_sense * (fastest + piston) + model.min_diameter / choice.step;
     return choice;
 }

@@ -301,3 +301,28 @@ TEST_CASE("a moving wall's speed, and so the step, does not depend on when the r
     CHECK(late.step == early.step);
     CHECK(early.step < 0.008 * std::sqrt(0.01 / 9.81)); // the speed decides
 }
+
+TEST_CASE("a step of more than ten times the automatic one is warned of, one longer than the run is refused",
+    "[step_choice][errors]")
+{
+    auto scene = small_scene();
+    scene.time.step = {9.9 * 2.554e-4, ""};
+    CHECK(build_scene(scene).report.warnings.empty());
+    scene.time.step = {10.1 * 2.554e-4, ""};
+    const auto warnings = build_scene(scene).report.warnings;
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Contains("2.58 ms") && Contains("10.1 times the automatic one"));
+    scene.time.step = {1.01 * scene.time.duration, ""};
+    CHECK_THROWS_WITH(build_scene(scene), "the step is longer than the run, 'duration'");
+}
+
+TEST_CASE("a tight lattice that cannot turn is warned of", "[step_choice]")
+{
+    auto scene = small_scene();
+    const auto warnings = [&] { return build_scene(scene).report.warnings.size(); };
+    CHECK(warnings() == 0);
+    scene.world.rotation = false;
+    CHECK(warnings() == 1);
+    scene.contact[0].friction = 0.0;
+    CHECK(warnings() == 0);
+}
