@@ -124,6 +124,7 @@ const std::vector<Situation> situations = {
     set("--set in a table that is not there", "wall.gate.remove_at=1"),
     set("--set of a whole table", "wall.tray=1"),
     set("--set within a value", "time.duration.long=1"),
+    set("a step longer than the run", "time.step=100"),
     edited("an unknown material", "material = \"glass\"", "material = \"steel\""),
     edited("a contact of one material", "\\[\"glass\", \"glass\"\\]", "[\"glass\"]"),
     {"a contact given twice", "printf '[[contact]]\\nbetween = [\"glass\", \"glass\"]\\n' >> scene.toml", check},

@@ -152,6 +152,21 @@ TEST_CASE("a wall that is taken away gives a new wall frame", "[app][run]")
     CHECK(times[1] == Approx(0.03).margin(1e-3));
 }
 
+TEST_CASE("a wall that appears inside spheres is told, and the run goes on", "[app][run]")
+{
+    const Workplace place;
+    const Outcome outcome = place.run(beads_in_a_box + R"([[wall]]
+name = "plate"
+shape = "disk"
+center = [0.025, 0.025, 0.006]
+radius = 0.05
+material = "glass"
+appear_at = 0.03
+)");
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.err, Contains("s: the wall 'plate' appears inside ") && Contains("; they are pushed out"));
+}
+
 TEST_CASE("contact frames are written at the first and the last step unless more are asked for", "[app][run]")
 {
     const Workplace place;
