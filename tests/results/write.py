@@ -172,7 +172,8 @@ def page(store):
     lines += ["", "## Runs", "", "| row | command | commit | date | seconds |", "| --- | --- | --- | --- | ---: |"]
     for item in measured:
         run = store[item.name]
-        lines.append(f"| {item.name} | `{run['command']}` | {run['commit']} | {run['date']} | {run['seconds']:.0f} |")
+        seconds = f"{run['seconds']:.0f}" if run["seconds"] else ""  # not noted by every earlier run
+        lines.append(f"| {item.name} | `{run['command']}` | {run['commit']} | {run['date']} | {seconds} |")
     lines += ["", "Seconds were taken on shared machines:", ""]
     for name in sorted({store[item.name]["machine"] for item in measured}):
         lines.append(f"- {name}: " + ", ".join(item.name for item in measured if store[item.name]["machine"] == name))
