@@ -11,7 +11,7 @@ CarriedImpulses::CarriedImpulses(std::size_t slots, bool with_rolling)
 
 void CarriedImpulses::clear(std::size_t slot)
 {
-    if (!touch[slot].touched()) return; // nothing is carried without
+    if (!touch[slot].is_loaded()) return; // nothing is carried without
     impulse[slot].setZero();
     if (!rolling_impulse.empty()) rolling_impulse[slot].setZero();
     touch[slot] = {};

@@ -23,14 +23,14 @@ class TouchRecord
 public:
     static constexpr int jam_steps = 100; ///< pressed for so many steps in a row, a contact is jammed
 
-    /// In the step before it overlapped or, unless open, had an impulse.
-    bool touched() const { return state_ > 0; }
+    /// In the step before it had an impulse, other than that of an impact.
+    bool is_loaded() const { return state_ > 0; }
     bool is_jammed() const { return state_ > jam_steps; }
     /// In the step before, it came to be so.
     bool is_newly_jammed() const { return state_ == 1 + jam_steps; }
 
     /// A step in which it is not deep enough to be pressed.
-    void note_touch(bool touched) { state_ = touched; }
+    void note_load(bool loaded) { state_ = loaded; }
     /// A step in which it is pressed.
     void note_pressed()
     {
@@ -49,7 +49,7 @@ public:
 private:
     static constexpr int freshly_pressed = 1 + 2 * jam_steps;
 
-    /// 0: did not touch; 1: did; to 1 + jam_steps: pressed for one step less; from freshly_pressed down to 2 +
+    /// 0: not loaded; 1: loaded; to 1 + jam_steps: pressed for one step less; from freshly_pressed down to 2 +
     /// jam_steps: jammed, and not pressed for as many steps as are missing.
     std::uint8_t state_ = 0;
 };

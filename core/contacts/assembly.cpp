@@ -12,6 +12,8 @@ namespace talus
 namespace
 {
 
+constexpr double touching = 1e-9; ///< overlap of spheres laid side by side, for rounding [smallest diameters]
+
 /// Numbers that all contacts of a step share.
 struct StepConstants {
     StepLength length;
@@ -33,6 +35,7 @@ struct Touch {
     double gap;
     double u_n;       ///< of v⁽⁰⁾ [m/s]
     double u_n_ahead; ///< of v⁽¹⁾ [m/s]
+    double closes;    ///< when the gap does so, with v⁽¹⁾ [s]; used where there is restitution
     double u_n_before; ///< of v⁽⁰⁾ against the velocity that the wall had then: 0 where a sphere goes with it [m/s]
     double arm_scale;           ///< s
     double inverse_mass_sum;    ///< W
@@ -74,11 +77,11 @@ public:
     {
     }
 
-    void add(const Touch& touch, const ContactLaw& law, double wall_level)
+    bool add(const Touch& touch, const ContactLaw& law, double wall_level)
     {
         const TouchRecord& before = carried_.touch[touch.slot];
         const auto kind =
-            contact_kind(touch.gap, touch.u_n, touch.u_n_ahead, before.touched(), law, step_.h, step_.threshold_speed);
+            contact_kind(touch.gap, touch.u_n, touch.closes, before.is_loaded(), law, step_.h, step_.threshold_speed);
         const Vec3 warm = kind == ContactKind::impact
                               ? Vec3::Zero().eval()
                               : warm_impulse(carried_.impulse[touch.slot], touch.normal, law.friction);
@@ -86,6 +89,9 @@ public:
         const double u_n = kind == ContactKind::impact ? touch.u_n : touch.u_n_before;
         const auto normal = normal_law(
             {kind, touch.gap, u_n, w, warm.dot(touch.normal), before.is_jammed()}, law, model_.solver, step_.length);
+        survey(touch.gap, normal);
+        if (kind != ContactKind::impact && law.restitution > 0.0 && !before.is_loaded() && is_left_alone(touch))
+            return false;
 
         arrays_.contact[next_] = {touch.a, touch.b, touch.normal, normal.target, warm};
         arrays_.terms[next_] = {touch.arm_scale, law.friction, normal.compliance, 1.0 / (w + normal.compliance),
@@ -93,8 +99,9 @@ public:
         arrays_.geometry[next_] = {touch.gap, wall_level, touch.slot, kind};
         if (!arrays_.wall.empty()) arrays_.wall[next_] = touch.wall;
         if (!arrays_.rolling.empty()) arrays_.rolling[next_] = rolling_row(touch, law, kind, warm.dot(touch.normal));
+        survey_.impacts += kind == ContactKind::impact;
         ++next_;
-        survey(touch.gap, normal);
+        return true;
     }
 
     ContactSurvey finish()
@@ -104,6 +111,16 @@ public:
     }
 
 private:
+    /// What an impact elsewhere closes within this step is an impact of its own in the next one: so a contact that does
+    /// not close by itself, or opens, stays out of the problem. Spheres that touch without a load count as apart. In a
+    /// split step nothing is left alone: walls must hold what is thrown at them.
+    bool is_left_alone(const Touch& touch) const
+    {
+        if (step_.length.is_split()) return false;
+        if (touch.gap > 0.0) return touch.closes >= step_.h;
+        return touch.gap + step_.h * touch.u_n_ahead >= -touching * model_.min_diameter;
+    }
+
     RollingRow rolling_row(const Touch& touch, const ContactLaw& law, ContactKind kind, double warm_normal) const
     {
         RollingRow row{Vec3::Zero(), law.rolling_friction * touch.rolling_radius, 1.0 / touch.inverse_inertia_sum};
@@ -166,18 +183,20 @@ ContactSurvey assemble_sphere_contacts(
             network.carried.pairs.clear(k);
             continue;
         }
-        assembly.add({.a = a,
-                         .b = b,
-                         .normal = normal,
-                         .gap = distance - radii,
-                         .u_n = u_n,
-                         .u_n_ahead = u_n, // gravity is the same for both
-                         .u_n_before = u_n,
-                         .arm_scale = distance / radii,
-                         .inverse_mass_sum = ma.inverse_mass + mb.inverse_mass,
-                         .rolling_radius = ma.radius * mb.radius / radii,
-                         .inverse_inertia_sum = model.physics.rolling ? inverse_inertia(ma) + inverse_inertia(mb) : 0.0,
-                         .slot = k},
+        assembly.add(
+            {.a = a,
+                .b = b,
+                .normal = normal,
+                .gap = distance - radii,
+                .u_n = u_n,
+                .u_n_ahead = u_n, // gravity is the same for both
+                .closes = model.physics.restitution ? closing_time(across, ma.velocity - mb.velocity, radii) : 0.0,
+                .u_n_before = u_n,
+                .arm_scale = distance / radii,
+                .inverse_mass_sum = ma.inverse_mass + mb.inverse_mass,
+                .rolling_radius = ma.radius * mb.radius / radii,
+                .inverse_inertia_sum = model.physics.rolling ? inverse_inertia(ma) + inverse_inertia(mb) : 0.0,
+                .slot = k},
             model.materials.between(state.material[a], state.material[b]), 0.0);
     }
     return assembly.finish();
@@ -204,8 +223,8 @@ public:
         find_points(pair, wall, x + shift);
         match_carried(network_.carried, pair, points_);
         for (std::size_t k = 0; k < points_.size(); ++k) {
-            add(pair, wall, points_[k], pair.first + static_cast<std::uint32_t>(k), x + shift, assembly);
-            note(points_[k], shift);
+            if (add(pair, wall, points_[k], pair.first + static_cast<std::uint32_t>(k), x + shift, assembly))
+                note(points_[k], shift);
         }
     }
 
@@ -245,7 +264,7 @@ private:
         });
     }
 
-    void add(const WallPair& pair, const PlacedWall& wall, const WallPoint& at, std::uint32_t slot, const Vec3& x,
+    bool add(const WallPair& pair, const PlacedWall& wall, const WallPoint& at, std::uint32_t slot, const Vec3& x,
         TileAssembly& assembly)
     {
         const Motion& m = state_.motion[pair.sphere];
@@ -253,19 +272,21 @@ private:
         const double gap = at.distance - m.radius;
         const WallRow row = wall_row(wall, at, x, m.radius);
         const double u_n = n.dot(m.velocity - row.velocity);
-        assembly.add({.a = pair.sphere,
-                         .b = pair.wall,
-                         .normal = n,
-                         .gap = gap,
-                         .u_n = u_n,
-                         .u_n_ahead = u_n + step_.h * n.dot(model_.gravity) - n.dot(wall.gain()),
-                         .u_n_before = n.dot(m.velocity - velocity_before(wall, at, x, m.radius)),
-                         .arm_scale = 1.0,
-                         .inverse_mass_sum = m.inverse_mass + inverse_mass(wall),
-                         .rolling_radius = m.radius,
-                         .inverse_inertia_sum = inverse_inertia(m),
-                         .slot = slot,
-                         .wall = row},
+        const double u_n_ahead = u_n + step_.h * n.dot(model_.gravity) - n.dot(wall.gain());
+        return assembly.add({.a = pair.sphere,
+                                .b = pair.wall,
+                                .normal = n,
+                                .gap = gap,
+                                .u_n = u_n,
+                                .u_n_ahead = u_n_ahead,
+                                .closes = u_n_ahead < 0.0 ? -gap / u_n_ahead : infinity,
+                                .u_n_before = n.dot(m.velocity - velocity_before(wall, at, x, m.radius)),
+                                .arm_scale = 1.0,
+                                .inverse_mass_sum = m.inverse_mass + inverse_mass(wall),
+                                .rolling_radius = m.radius,
+                                .inverse_inertia_sum = inverse_inertia(m),
+                                .slot = slot,
+                                .wall = row},
             model_.materials.between(state_.material[pair.sphere], wall.wall().material),
             n.dot(state_.position[pair.sphere]) - gap + way_ahead(wall, n, row));
     }
@@ -320,6 +341,7 @@ ContactSurvey assemble_piston_contacts(ContactNetwork& network, const State& sta
 ContactSurvey& ContactSurvey::operator+=(const ContactSurvey& other)
 {
     count += other.count;
+    impacts += other.impacts;
     overlapping += other.overlapping;
     worst_overlap = std::max(worst_overlap, other.worst_overlap);
     overlap_sum += other.overlap_sum;

@@ -56,13 +56,12 @@ ContactOutcome carry(
             std::max(outcome.cone_violation, tangent_impulse - arrays.terms[k].friction * normal_impulse);
         TouchRecord& touch = carried.touch[geometry.slot];
         const bool pressed = gauge.sees(arrays, k, at_wall);
-        const bool opened = geometry.kind == ContactKind::open; // and closed by the impacts of others, if it was fast
         if (pressed)
             touch.note_pressed();
         else if (gauge.is_deep(geometry))
             touch.note_unpressed();
         else
-            touch.note_touch(geometry.gap <= 0.0 || (normal_impulse > 0.0 && !opened));
+            touch.note_load(keeps && normal_impulse > 0.0);
         if (pressed && touch.is_newly_jammed()) ++outcome.newly_jammed;
         carried.impulse[geometry.slot] = keeps ? contact.impulse : Vec3::Zero().eval();
         if (!arrays.rolling.empty())

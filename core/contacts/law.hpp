@@ -5,6 +5,7 @@
 #include "core/world/model.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace talus
 {
@@ -96,14 +97,22 @@ inline NormalLaw normal_law(
                                                           : projected_law(event, law, solver, step);
 }
 
+/// When two spheres that move so touch: infinite if never, negative if they overlap and approach [s].
+/// @param across from one centre to the other; @param radii their sum
+inline double closing_time(const Vec3& across, const Vec3& velocity, double radii)
+{
+    const double approach = -across.dot(velocity), apart = across.squaredNorm() - radii * radii;
+    const double root = approach * approach - velocity.squaredNorm() * apart;
+    return approach > 0.0 && root >= 0.0 ? apart / (approach + std::sqrt(root)) : infinity;
+}
+
 /// Which law a contact follows in this step.
-/// @param u_n_ahead of v⁽¹⁾, with gravity; @param touched in the step before it overlapped or, unless open, had an
-/// impulse
+/// @param closes when the gap does so by itself [s]; @param loaded in the step before it had an impulse
 inline ContactKind contact_kind(
-    double gap, double u_n, double u_n_ahead, bool touched, const ContactLaw& law, double h, double threshold_speed)
+    double gap, double u_n, double closes, bool loaded, const ContactLaw& law, double h, double threshold_speed)
 {
     const bool fast = law.restitution > 0.0 && u_n < -threshold_speed;
-    const bool begins = gap <= 0.0 ? !touched : gap + h * u_n_ahead < 0.0;
+    const bool begins = gap <= 0.0 ? !loaded : closes < h;
     if (fast && begins) return ContactKind::impact;
     return gap <= 0.0 ? ContactKind::resting : ContactKind::open;
 }

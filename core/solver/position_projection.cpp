@@ -10,6 +10,12 @@ namespace
 
 constexpr double deepest_in_wall = 0.25; ///< smallest diameters
 
+/// What overlaps after an impact parts by itself: to move it would add energy.
+bool overlap_stays(const ContactGeometry& geometry)
+{
+    return geometry.kind != ContactKind::impact;
+}
+
 void separate_spheres(const Contact& c, State& state, const Periodicity& periodicity, double share)
 {
     const Motion& a = state.motion[c.a];
@@ -59,9 +65,11 @@ void project_positions(
     const auto& [spheres, at_walls, pistons, arms] = network.contacts;
     const auto separate = [&](std::size_t tile) {
         for (const std::size_t k : spheres.of_tile(tile))
-            separate_spheres(spheres.contact[k], state, model.periodicity, share);
+            if (overlap_stays(spheres.geometry[k]))
+                separate_spheres(spheres.contact[k], state, model.periodicity, share);
         for (const std::size_t k : at_walls.of_tile(tile))
-            separate_from_wall(at_walls.contact[k], at_walls.geometry[k].wall_level, state, share);
+            if (overlap_stays(at_walls.geometry[k]))
+                separate_from_wall(at_walls.contact[k], at_walls.geometry[k].wall_level, state, share);
     };
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) { crew.color_by_color(separate); });
 

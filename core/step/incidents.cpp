@@ -100,7 +100,7 @@ std::vector<Incident> find_walls_inside(const ContactNetwork& network, const Sta
             const ContactGeometry& geometry = contacts.geometry[k];
             const double age = state.time - model.walls[wall].appear_at;
             const bool is_new = model.walls[wall].appear_at > 0.0 && age < 2.0 * model.time_step &&
-                                !network.carried.walls.touch[geometry.slot].touched();
+                                !network.carried.walls.touch[geometry.slot].is_loaded();
             if (!is_new || -geometry.gap < inside * model.min_diameter) continue;
             Incident& incident = found[wall];
             incident.kind = Incident::Kind::appeared_inside;

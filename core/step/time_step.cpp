@@ -4,6 +4,7 @@
 #include "core/candidates/candidate_search.hpp"
 #include "core/candidates/curve_order.hpp"
 #include "core/contacts/law.hpp"
+#include "core/solver/flight.hpp"
 #include "core/solver/piston_group.hpp"
 #include "core/solver/position_projection.hpp"
 
@@ -87,14 +88,18 @@ void mark_leaving(State& state, const std::vector<Region>& outlets)
 
 using MovingBodies = std::tuple<std::vector<Motion>, std::vector<PistonState>>;
 
-/// The speed of the fastest sphere or piston; not asked for where nothing is too fast.
-double fastest_of(const State& state, double too_fast)
+/// The speed of the fastest sphere or piston, for those in flight that of the way which they have left to go; not asked
+/// for where nothing is too fast.
+double fastest_of(const State& state, const std::vector<Flight>& flights, double h, double too_fast)
 {
     if (too_fast == infinity) return 0.0;
     double fastest = 0.0;
     for (const Motion& m : state.motion) fastest = std::max(fastest, m.velocity.squaredNorm());
     for (const PistonState& piston : state.pistons) fastest = std::max(fastest, piston.velocity.squaredNorm());
-    return std::sqrt(fastest);
+    fastest = std::sqrt(fastest);
+    for (const Flight& flight : flights)
+        fastest = std::max(fastest, (1.0 - flight.instant / h) * state.motion[flight.sphere].velocity.norm());
+    return fastest;
 }
 
 } // namespace
@@ -132,6 +137,7 @@ PreparedStep prepare_step(
     // Which do, under which law, and with what impulse to begin with?
     if (observer) observer(Phase::assembly);
     prepared.contacts = assemble_contacts(network, state, model, step, prepared.walls);
+    if (prepared.contacts.impacts > 0) prepared.flights = place_impacts(network, state, model, step.h());
     return prepared;
 }
 
@@ -172,7 +178,7 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     // The contact impulses: every contact in turn until all laws hold.
     report.solve = solve_contacts(network, pistons, state.motion, model.physics, model.solver, warm_size, sweeps);
     pistons.store(network, state);
-    if (fastest_of(state, fastest) > fastest) {
+    if (fastest_of(state, prepared.flights, h, fastest) > fastest) {
         std::tie(state.motion, state.pistons) = before;
         return std::nullopt;
     }
@@ -184,6 +190,7 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     // Positions with the new velocity: x ← x + h v.
     enter(Phase::positions);
     move_spheres(state, h);
+    move_flights(prepared.flights, state);
     const double load_work = move_pistons(state, model.pistons, h);
     if (model.solver.stabilisation == Stabilisation::projected)
         project_positions(network, state, model, prepared.walls, projected_share);

@@ -6,6 +6,7 @@
 #include "core/contacts/contact_network.hpp"
 #include "core/contacts/loads.hpp"
 #include "core/pressure_scaling/pressure_scaling.hpp"
+#include "core/solver/flight.hpp"
 #include "core/solver/gauss_seidel.hpp"
 #include "core/step/diagnostics.hpp"
 #include "core/world/model.hpp"
@@ -65,6 +66,7 @@ struct PreparedStep {
     std::vector<PlacedWall> walls; ///< where they stand, and their mean velocities over the step
     SearchReport search;
     ContactSurvey contacts;
+    std::vector<Flight> flights;
     double impulse_scale = 1.0; ///< of the carried impulses, where the step before had another length
 };
 

@@ -91,24 +91,24 @@ TEST_CASE(
     CHECK(kinetic_energy(world.state) < 1e-3 * record.start); // it did come to rest
 }
 
-TEST_CASE("without friction restitution hardly ever adds energy to the discrete motion, and never above the start",
+TEST_CASE("without friction restitution takes what it should, and elastic spheres keep their energy",
     "[energy][dissipation][restitution]")
 {
-    // A rigid contact changes H by ½ λ_n (u_n⁺ + u_n⁻): for an impact ½ λ_n (1 − e) u_n⁻ ≤ 0. Only a contact
-    // that was opening (u_n⁻ > 0) and is pressed shut by another's impact in the same step adds some: of 600 blocks
-    // 24 see a step that adds more than 1e-6 of the energy at the start, and one 1.5e-3.
+    // A rigid contact changes H by ½ λ_n (u_n⁺ + u_n⁻): for an impact ½ λ_n (1 − e) u_n⁻ ≤ 0. Only an overlapping
+    // contact that was opening (u_n⁻ > 0), not by as much as it overlaps, and is pressed shut by another's impact in
+    // the same step adds some; and `projected` lifts what overlaps.
     const double e = GENERATE(0.5, 0.9, 1.0);
     constexpr int blocks = 100;
-    int visible = 0;
     for (int seed = 1; seed <= blocks; ++seed) {
         World world = spheres_above_a_box(0.0, e, rigid_settings(1e-9, 1000), seed);
         const auto record = record_energy(world, discrete_energy);
-        visible += record.worst_rise > 1e-6 * record.start;
         CHECK(record.rises < 5e-3 * record.start);
-        CHECK(record.highest < (1 + 1e-6) * record.start);
-        CHECK(record.end < record.start);
+        CHECK(record.highest < (1 + 1e-4) * record.start);
+        if (e < 1.0)
+            CHECK(record.end < record.start);
+        else
+            CHECK(record.end == within(1e-3, record.start));
     }
-    CHECK(visible <= blocks / 10);
 }
 
 TEST_CASE("friction and restitution together add next to nothing and never exceed the energy at the start",

@@ -209,7 +209,7 @@ TEST_CASE("impulses stay with their pair when the list is rebuilt and renumbered
     };
     for (std::int32_t i = 0; i < 19; ++i) {
         world.network.carried.pairs.impulse[slot_of(i, i + 1)] = Vec3(i + 1, 0, 0);
-        world.network.carried.pairs.touch[slot_of(i, i + 1)].note_touch(true);
+        world.network.carried.pairs.touch[slot_of(i, i + 1)].note_load(true);
     }
     std::vector<std::int32_t> new_index(20);
     for (std::int32_t i = 0; i < 20; ++i) new_index[static_cast<std::size_t>(i)] = (7 * i) % 20;
@@ -223,7 +223,7 @@ TEST_CASE("impulses stay with their pair when the list is rebuilt and renumbered
         const auto slot = slot_of(a, b);
         // On the bead of lower storage index: turned round where that is now the other one.
         CHECK(world.network.carried.pairs.impulse[slot] == (a < b ? 1.0 : -1.0) * Vec3(i + 1, 0, 0));
-        CHECK(world.network.carried.pairs.touch[slot].touched());
+        CHECK(world.network.carried.pairs.touch[slot].is_loaded());
     }
 }
 

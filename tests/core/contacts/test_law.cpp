@@ -12,9 +12,9 @@ constexpr double h = 1e-3;
 constexpr double threshold = 0.03;                                   // [m/s]
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN(); // must not be read
 
-ContactKind kind(double gap, double u_n, double u_n_ahead, bool touched, double restitution = 0.5)
+ContactKind kind(double gap, double u_n, double closes, bool loaded, double restitution = 0.5)
 {
-    return contact_kind(gap, u_n, u_n_ahead, touched, {0.5, restitution, 0.0, infinity}, h, threshold);
+    return contact_kind(gap, u_n, closes, loaded, {0.5, restitution, 0.0, infinity}, h, threshold);
 }
 
 } // namespace
@@ -22,13 +22,14 @@ ContactKind kind(double gap, double u_n, double u_n_ahead, bool touched, double 
 TEST_CASE("an impact is fast, new, and only where there is restitution", "[stabilisation]")
 {
     CHECK(kind(-1e-5, -1.0, nowhere, false) == ContactKind::impact);
-    CHECK(kind(-1e-5, -1.0, nowhere, true) == ContactKind::resting);              // touched in the step before
+    CHECK(kind(-1e-5, -1.0, nowhere, true) == ContactKind::resting);              // loaded in the step before
     CHECK(kind(-1e-5, -0.5 * threshold, nowhere, false) == ContactKind::resting); // too slow
     CHECK(kind(-1e-5, -1.0, nowhere, false, 0.0) == ContactKind::resting);        // no restitution
-    CHECK(kind(1e-4, -1.0, -1.0, false) == ContactKind::impact); // an open gap that closes in this step
-    CHECK(kind(1e-4, -1.0, -1.0, true) == ContactKind::impact);
-    CHECK(kind(1e-2, -1.0, -1.0, false) == ContactKind::open); // one that does not
-    CHECK(kind(1e-4, 0.1, 0.1, false) == ContactKind::open);
+    CHECK(kind(1e-4, -1.0, 1e-4, false) == ContactKind::impact); // an open gap that closes in this step
+    CHECK(kind(1e-4, -1.0, 1e-4, true) == ContactKind::impact);
+    CHECK(kind(1e-2, -1.0, 1e-2, false) == ContactKind::open);     // one that does not
+    CHECK(kind(1e-4, -1.0, infinity, false) == ContactKind::open); // or passes by
+    CHECK(kind(1e-4, 0.1, infinity, false) == ContactKind::open);
 }
 
 TEST_CASE("each kind of contact gets its law", "[stabilisation]")

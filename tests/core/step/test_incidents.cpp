@@ -60,7 +60,7 @@ TEST_CASE("a jammed contact yields until it has not been pressed for as many ste
     }
     const auto is_as_any_other = [&] {
         touch.note_unpressed();
-        return touch.touched() && !touch.is_jammed();
+        return touch.is_loaded() && !touch.is_jammed();
     };
     SECTION("one step more, and it is as any other")
     {

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/flight.hpp"
+
+#include "core/contacts/law.hpp"
+#include "core/solver/tile_crew.hpp"
+
+#include <algorithm>
+
+namespace talus
+{
+namespace
+{
+
+/// What a sphere meets in this step.
+struct Meetings {
+    double instants = 0.0; ///< sum over the impacts [s]
+    int impacts = 0;
+    bool held = false; ///< there are other contacts
+
+    bool meets_one() const { return impacts == 1 && !held; }
+    bool in_flight() const { return impacts > 0 && !held; }
+    double instant() const { return in_flight() ? instants / impacts : 0.0; }
+    void add(const ContactGeometry& geometry, double instant)
+    {
+        if (geometry.kind != ContactKind::impact)
+            held = true;
+        else {
+            ++impacts;
+            instants += instant;
+        }
+    }
+};
+
+/// Finds them for all spheres.
+class MeetingSurvey
+{
+public:
+    MeetingSurvey(const ContactNetwork& network, const State& state, const Model& model, double h)
+        : of(state.count()), network_(network), state_(state), model_(model), h_(h)
+    {
+    }
+
+    /// Tiles of one colour may be surveyed at the same time.
+    void survey(std::size_t tile)
+    {
+        const auto& [spheres, walls, pistons, arms] = network_.contacts;
+        for (const std::size_t k : spheres.of_tile(tile)) {
+            const Contact& c = spheres.contact[k];
+            const double instant = instant_of(c, spheres.geometry[k]);
+            of[c.a].add(spheres.geometry[k], instant);
+            of[c.b].add(spheres.geometry[k], instant);
+        }
+        for (const std::size_t k : walls.of_tile(tile)) of[walls.contact[k].a].held = true;
+    }
+
+    /// Keeps those that meet one other that meets none but them. Moved by one instant they keep their potential energy,
+    /// several that meet each other do not.
+    void keep_pairs(std::size_t tile)
+    {
+        const ContactArrays& spheres = network_.contacts.spheres;
+        for (const std::size_t k : spheres.of_tile(tile)) {
+            Meetings &a = of[spheres.contact[k].a], &b = of[spheres.contact[k].b];
+            if (a.meets_one() && b.meets_one()) continue;
+            a.held = b.held = true;
+        }
+    }
+
+    void survey_pistons()
+    {
+        for (const Contact& c : network_.contacts.pistons.contact) of[c.a].held = true;
+    }
+
+    Vec3 across(const Contact& c) const
+    {
+        return model_.periodicity.nearest_image(state_.position[c.a] - state_.position[c.b]);
+    }
+
+    std::vector<Meetings> of; ///< by sphere
+
+private:
+    const ContactNetwork& network_;
+    const State& state_;
+    const Model& model_;
+    double h_;
+
+    double instant_of(const Contact& c, const ContactGeometry& geometry) const
+    {
+        if (geometry.kind != ContactKind::impact) return 0.0;
+        const Motion &a = state_.motion[c.a], &b = state_.motion[c.b];
+        return std::clamp(closing_time(across(c), a.velocity - b.velocity, a.radius + b.radius), -h_, h_);
+    }
+};
+
+/// The impact between spheres, seen from where both are at their instants.
+void place(Contact& c, ContactTerms& terms, const MeetingSurvey& meetings, const State& state, const Model& model)
+{
+    const Motion &a = state.motion[c.a], &b = state.motion[c.b];
+    const Vec3 at_instants =
+        meetings.across(c) + meetings.of[c.a].instant() * a.velocity - meetings.of[c.b].instant() * b.velocity;
+    const double distance = at_instants.norm();
+    if (distance == 0.0) return;
+    c.normal = at_instants / distance;
+    const auto& law = model.materials.between(state.material[c.a], state.material[c.b]);
+    c.target = -law.restitution * std::min(0.0, c.normal.dot(a.velocity - b.velocity));
+    terms.arm_scale = distance / (a.radius + b.radius);
+    if (model.physics.spin)
+        terms.tangent_mass =
+            1.0 / (terms.inverse_mass_sum * (1.0 + inverse_inertia_factor * terms.arm_scale * terms.arm_scale));
+}
+
+} // namespace
+
+std::vector<Flight> place_impacts(ContactNetwork& network, const State& state, const Model& model, double h)
+{
+    MeetingSurvey meetings(network, state, model, h);
+    ContactArrays& spheres = network.contacts.spheres;
+    if (model.physics.pistons) meetings.survey_pistons();
+    with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
+        crew.color_by_color([&](std::size_t tile) { meetings.survey(tile); });
+        if (!model.gravity.isZero()) crew.color_by_color([&](std::size_t tile) { meetings.keep_pairs(tile); });
+        crew.all_at_once([&](std::size_t tile) {
+            for (const std::size_t k : spheres.of_tile(tile))
+                if (spheres.geometry[k].kind == ContactKind::impact)
+                    place(spheres.contact[k], spheres.terms[k], meetings, state, model);
+        });
+    });
+
+    std::vector<Flight> flights;
+    for (std::size_t i = 0; i < state.count(); ++i)
+        if (const Meetings& met = meetings.of[i]; met.in_flight())
+            flights.push_back({static_cast<std::int32_t>(i), met.instant(),
+                met.instant() * (state.motion[i].velocity + h * model.gravity)});
+    return flights;
+}
+
+void move_flights(const std::vector<Flight>& flights, State& state)
+{
+    for (const Flight& flight : flights)
+        state.position[flight.sphere] += flight.way - flight.instant * state.motion[flight.sphere].velocity;
+}
+
+} // namespace talus
