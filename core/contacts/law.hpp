@@ -60,11 +60,13 @@ inline double feedback_share(
 
 /// `matched` (the default): the note's own step, eq. (2), with a compliance that the sweeps can carry. Of the feedback
 /// on overlap, what exceeds the need of the carried impulse is capped, so that a deep overlap does not become a shot.
+/// A jammed contact does not hold what it carries: it parts with the cap at most, and stores nothing.
 inline NormalLaw matched_law(
     const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, const StepLength& step)
 {
     const double h = step.h();
     const double compliance = matched_compliance(law, event.inverse_mass_sum, h, solver.min_sweeps);
+    if (event.jammed) return {std::min(-4.0 / h * upsilon * event.gap, solver.push_out_speed), compliance, 0.0};
     const double share = step.is_split() ? feedback_share(event, law, solver, step) : 1.0;
     const double held = compliance * event.carried_normal;
     const double push_out = std::min(-4.0 / h * upsilon * share * event.gap - held, solver.push_out_speed);

@@ -73,3 +73,17 @@ TEST_CASE("only the excess of the push-out over what the carried impulse needs i
     const double gap = -0.2 * h / (4.0 / 9.0);
     CHECK(normal_law({ContactKind::resting, gap, 0.0, w, carried}, {}, solver, {h}).target == Approx(0.2));
 }
+
+TEST_CASE("a jammed contact does not hold the impulse that it carries", "[stabilisation][press]")
+{
+    SolverSettings solver;
+    solver.push_out_speed = 0.05;
+    const double w = 2.0, carried = GENERATE(0.0, 1.0, 100.0);
+    const auto target = [&](double gap) {
+        return normal_law({ContactKind::resting, gap, -0.1, w, carried, true}, {}, solver, {h}).target;
+    };
+    CHECK(target(-1e-2) == solver.push_out_speed);
+    CHECK(target(-1e-5) == Approx(4.0 / 9.0 * 1e-5 / h));
+    solver.stabilisation = Stabilisation::projected;
+    CHECK(target(-1e-2) == 0.0);
+}
