@@ -35,6 +35,7 @@ struct ContactEvent {
     double inverse_mass_sum; ///< W [1/kg]
     double carried_normal;   ///< λ_n⁽⁰⁾ [N s]
     bool jammed = false;     ///< TouchRecord
+    double u_n_turned = 0.0; ///< what the turn of a wall's normal since the step before has added to u_n [m/s]
 };
 
 /// Σ_n of a resting contact of `matched`: that of the material's stiffness k, but no stiffer than N_min sweeps can
@@ -73,12 +74,20 @@ inline NormalLaw matched_law(
     return {held + push_out + upsilon * event.u_n, compliance, share};
 }
 
+/// What a rigid contact at a concave wall gives back of the velocity that it takes. A sphere that runs along it goes on
+/// chords: the turn of the normal makes it meet the wall with u_n < 0 in every step, and u_n ≥ 0 would brake it. With
+/// half of the turn against each end of a chord its speed is kept. Never more than it came with.
+inline double turned_back(const ContactEvent& event)
+{
+    return std::max(0.0, std::min(-event.u_n, -0.5 * event.u_n_turned));
+}
+
 /// `projected`: rigid, u_n ≥ 0; overlap is removed by moving the spheres (position_projection.hpp). A jammed contact
 /// yields: it has an impulse in proportion to the speed with which it is closed, and none when it is not.
 inline NormalLaw projected_law(
     const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, const StepLength& step)
 {
-    if (!event.jammed) return {0.0, 0.0};
+    if (!event.jammed) return {turned_back(event), 0.0};
     return {0.0, matched_compliance(law, event.inverse_mass_sum, step.h(), solver.min_sweeps)};
 }
 
@@ -86,16 +95,16 @@ inline NormalLaw projected_law(
 inline NormalLaw normal_law(
     const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, const StepLength& step)
 {
+    const bool rigid = solver.stabilisation == Stabilisation::projected;
     switch (event.kind) {
     case ContactKind::impact:
         return {-law.restitution * event.u_n, 0.0};
     case ContactKind::open:
-        return {-event.gap / step.h(), 0.0};
+        return {-event.gap / step.h() + (rigid ? turned_back(event) : 0.0), 0.0};
     case ContactKind::resting:
         break;
     }
-    return solver.stabilisation == Stabilisation::matched ? matched_law(event, law, solver, step)
-                                                          : projected_law(event, law, solver, step);
+    return rigid ? projected_law(event, law, solver, step) : matched_law(event, law, solver, step);
 }
 
 /// Which law a contact follows in this step.
