@@ -12,6 +12,8 @@ namespace talus
 namespace
 {
 
+constexpr double least_turn = 1e-9; ///< of a wall's normal in a step: less is rounding
+
 /// Numbers that all contacts of a step share.
 struct StepConstants {
     StepLength length;
@@ -252,10 +254,11 @@ private:
     }
 
     /// What the turn of the normal since the step before has added to u_n [m/s]: known where the wall stands still and
-    /// has borne the sphere at one place. A turn shorter than the sphere's radius allows is that of an edge.
+    /// has borne the sphere at one place. A turn about less than the sphere's radius is that of an edge.
     double turned(const PlacedWall& wall, const Motion& m, const Vec3& turn, std::uint32_t slot) const
     {
-        const bool is_smooth = turn.norm() * m.radius <= step_.h * m.velocity.norm();
+        const double angle = turn.norm();
+        const bool is_smooth = angle > least_turn && angle * m.radius <= step_.h * m.velocity.norm();
         const bool was_borne = !network_.carried.walls.impulse[slot].isZero(0.0);
         return !wall.moves() && is_smooth && was_borne ? turn.dot(m.velocity) : 0.0;
     }
