@@ -18,6 +18,9 @@ namespace talus
 /// carry.cpp), for many steps without a break: it is *jammed*. A jammed contact yields (law.hpp), so that impulses stay
 /// finite and none is left over when the press opens; until it overlaps less, or has not been pressed for as many steps
 /// in a row: while its old impulse gives way, it may not close for some.
+///
+/// A compliant contact takes all that a press asks for, and gives it back: as speed, when a sphere slips out. So where
+/// it closes under load deeper than any bed at rest lets it, it is *crushed*: jammed at once, until it is shallow.
 class TouchRecord
 {
 public:
@@ -39,6 +42,8 @@ public:
         else
             state_ = static_cast<std::uint8_t>((state_ > 1 ? state_ : 1) + 1);
     }
+    /// A step in which it is crushed, or has been and is not shallow yet.
+    void note_crushed() { state_ = is_jammed() ? freshly_pressed : 1 + jam_steps; }
     /// A step in which it is as deep, and not pressed.
     void note_unpressed()
     {
@@ -56,6 +61,9 @@ private:
 
 /// From this overlap on, in smallest diameters, a contact can be pressed.
 inline constexpr double pressed_overlap = 0.01;
+
+/// From this overlap on, in smallest diameters, a compliant contact can be crushed.
+inline constexpr double crushed_overlap = 0.125;
 
 /// The impulses that contacts hand on from one step to the next, by slot: a slot is a listed pair, or one of those of a
 /// listed wall.

@@ -12,7 +12,8 @@ namespace talus
 namespace
 {
 
-constexpr double touching = 1e-9; ///< overlap of spheres laid side by side, for rounding [smallest diameters]
+constexpr double touching = 1e-9;   ///< overlap of spheres laid side by side, for rounding [smallest diameters]
+constexpr double least_turn = 1e-9; ///< of a wall's normal in a step: less is rounding
 
 /// Numbers that all contacts of a step share.
 struct StepConstants {
@@ -37,6 +38,7 @@ struct Touch {
     double u_n_ahead; ///< of v⁽¹⁾ [m/s]
     double closes;    ///< when the gap does so, with v⁽¹⁾ [s]; used where there is restitution
     double u_n_before; ///< of v⁽⁰⁾ against the velocity that the wall had then: 0 where a sphere goes with it [m/s]
+    double u_n_turned;          ///< what the turn of the normal since the step before has added to u_n [m/s]
     double arm_scale;           ///< s
     double inverse_mass_sum;    ///< W
     double rolling_radius;      ///< R*
@@ -87,8 +89,9 @@ public:
                               : warm_impulse(carried_.impulse[touch.slot], touch.normal, law.friction);
         const double w = touch.inverse_mass_sum;
         const double u_n = kind == ContactKind::impact ? touch.u_n : touch.u_n_before;
-        const auto normal = normal_law(
-            {kind, touch.gap, u_n, w, warm.dot(touch.normal), before.is_jammed()}, law, model_.solver, step_.length);
+        const auto normal =
+            normal_law({kind, touch.gap, u_n, w, warm.dot(touch.normal), before.is_jammed(), touch.u_n_turned}, law,
+                model_.solver, step_.length);
         survey(touch.gap, normal);
         if (kind != ContactKind::impact && law.restitution > 0.0 && !before.is_loaded() && is_left_alone(touch))
             return false;
@@ -192,6 +195,7 @@ ContactSurvey assemble_sphere_contacts(
                 .u_n_ahead = u_n, // gravity is the same for both
                 .closes = model.physics.restitution ? closing_time(across, ma.velocity - mb.velocity, radii) : 0.0,
                 .u_n_before = u_n,
+                .u_n_turned = 0.0, // they are convex: it parts them
                 .arm_scale = distance / radii,
                 .inverse_mass_sum = ma.inverse_mass + mb.inverse_mass,
                 .rolling_radius = ma.radius * mb.radius / radii,
@@ -221,9 +225,12 @@ public:
         const Vec3& x = state_.position[pair.sphere];
         const Vec3 shift = model_.periodicity.shift_towards(x, network_.list.listed_box[pair.sphere].center());
         find_points(pair, wall, x + shift);
+        const bool alone = pair.carried == 1 && points_.size() == 1;
+        const Vec3 normal_before = alone ? network_.carried.wall_normal[pair.first] : Vec3(Vec3::Zero());
         match_carried(network_.carried, pair, points_);
+        const Vec3 turn = alone ? Vec3(points_[0].normal - normal_before) : Vec3(Vec3::Zero());
         for (std::size_t k = 0; k < points_.size(); ++k) {
-            if (add(pair, wall, points_[k], pair.first + static_cast<std::uint32_t>(k), x + shift, assembly))
+            if (add(pair, wall, points_[k], turn, pair.first + static_cast<std::uint32_t>(k), x + shift, assembly))
                 note(points_[k], shift);
         }
     }
@@ -264,8 +271,19 @@ private:
         });
     }
 
-    bool add(const WallPair& pair, const PlacedWall& wall, const WallPoint& at, std::uint32_t slot, const Vec3& x,
-        TileAssembly& assembly)
+    /// What the turn of the normal since the step before has added to u_n [m/s]: known where the wall stands still and
+    /// has borne the sphere at one place. A turn about less than the sphere's radius is that of an edge.
+    double turned(const PlacedWall& wall, const Motion& m, const Vec3& turn, std::uint32_t slot) const
+    {
+        const double angle = turn.norm();
+        const bool is_smooth = angle > least_turn && angle * m.radius <= step_.h * m.velocity.norm();
+        const bool was_borne = !network_.carried.walls.impulse[slot].isZero(0.0);
+        return !wall.moves() && is_smooth && was_borne ? turn.dot(m.velocity) : 0.0;
+    }
+
+    /// @param turn of the normal since the step before, zero where it is not known
+    bool add(const WallPair& pair, const PlacedWall& wall, const WallPoint& at, const Vec3& turn, std::uint32_t slot,
+        const Vec3& x, TileAssembly& assembly)
     {
         const Motion& m = state_.motion[pair.sphere];
         const Vec3& n = at.normal;
@@ -281,6 +299,7 @@ private:
                                 .u_n_ahead = u_n_ahead,
                                 .closes = u_n_ahead < 0.0 ? -gap / u_n_ahead : infinity,
                                 .u_n_before = n.dot(m.velocity - velocity_before(wall, at, x, m.radius)),
+                                .u_n_turned = turned(wall, m, turn, slot),
                                 .arm_scale = 1.0,
                                 .inverse_mass_sum = m.inverse_mass + inverse_mass(wall),
                                 .rolling_radius = m.radius,

@@ -8,36 +8,53 @@ namespace talus
 namespace
 {
 
-/// A contact of `projected` counts as pressed in a step (TouchRecord) when it overlaps by pressed_overlap (in smallest
-/// diameters), and has an impulse that does not keep it from closing by this many in the step.
+/// A contact closes under load when it has an impulse that does not keep it from closing by so many smallest diameters
+/// in the step. A rigid one that is deep enough counts as pressed then, a compliant one as crushed (TouchRecord).
 constexpr double pressed_closing = 1e-8;
 
-/// Tells which contacts are pressed; none with `matched`, whose contacts give way, none at pistons,
-/// and none where no wall moves as told: to stand still obeys every contact then.
+/// Tells which contacts are pressed; none at pistons, which give way, and none where no wall moves as told: to stand
+/// still obeys every contact then.
 struct PressGauge {
     const std::vector<Motion>& motion;
-    double overlap; ///< [m]
+    bool rigid;     ///< `projected`
+    double overlap; ///< from which on a contact can be pressed [m]
+    double crushed; ///< the same of a compliant one [m]
     double closing; ///< [m/s]
 
     PressGauge(const State& state, const Model& model, double h)
-        : motion(state.motion),
-          overlap(model.solver.stabilisation == Stabilisation::projected && model.physics.moving_walls
-                      ? pressed_overlap * model.min_diameter
-                      : infinity),
-          closing(pressed_closing * model.min_diameter / h)
+        : motion(state.motion), rigid(model.solver.stabilisation == Stabilisation::projected),
+          overlap(model.physics.moving_walls ? pressed_overlap * model.min_diameter : infinity),
+          crushed(crushed_overlap * model.min_diameter), closing(pressed_closing * model.min_diameter / h)
     {
     }
 
-    bool is_deep(const ContactGeometry& geometry) const { return -geometry.gap > overlap; }
-
-    bool sees(const ContactArrays& arrays, std::size_t k, bool at_wall) const
+    void note(TouchRecord& touch, const ContactArrays& arrays, std::size_t k, bool at_wall) const
     {
-        if (!is_deep(arrays.geometry[k])) return false;
+        const ContactGeometry& geometry = arrays.geometry[k];
+        const bool loaded = geometry.kind != ContactKind::impact && normal_impulse(arrays.contact[k]) > 0.0;
+        if (-geometry.gap <= overlap)
+            touch.note_load(loaded);
+        else if (rigid)
+            closes_under_load(arrays, k, at_wall) ? touch.note_pressed() : touch.note_unpressed();
+        else
+            touch.is_jammed() || is_crushed(arrays, k, at_wall) ? touch.note_crushed() : touch.note_load(loaded);
+    }
+
+private:
+    static double normal_impulse(const Contact& c) { return c.impulse.dot(c.normal); }
+
+    bool is_crushed(const ContactArrays& arrays, std::size_t k, bool at_wall) const
+    {
+        return -arrays.geometry[k].gap > crushed && closes_under_load(arrays, k, at_wall);
+    }
+
+    bool closes_under_load(const ContactArrays& arrays, std::size_t k, bool at_wall) const
+    {
         const Contact& c = arrays.contact[k];
         Vec3 u = motion[c.a].velocity;
         if (!at_wall) u -= motion[c.b].velocity;
         if (!arrays.wall.empty()) u -= arrays.wall[k].velocity;
-        return c.impulse.dot(c.normal) > 0.0 && u.dot(c.normal) < -closing;
+        return normal_impulse(c) > 0.0 && u.dot(c.normal) < -closing;
     }
 };
 
@@ -55,14 +72,8 @@ ContactOutcome carry(
         outcome.cone_violation =
             std::max(outcome.cone_violation, tangent_impulse - arrays.terms[k].friction * normal_impulse);
         TouchRecord& touch = carried.touch[geometry.slot];
-        const bool pressed = gauge.sees(arrays, k, at_wall);
-        if (pressed)
-            touch.note_pressed();
-        else if (gauge.is_deep(geometry))
-            touch.note_unpressed();
-        else
-            touch.note_load(keeps && normal_impulse > 0.0);
-        if (pressed && touch.is_newly_jammed()) ++outcome.newly_jammed;
+        gauge.note(touch, arrays, k, at_wall);
+        if (touch.is_newly_jammed()) ++outcome.newly_jammed;
         carried.impulse[geometry.slot] = keeps ? contact.impulse : Vec3::Zero().eval();
         if (!arrays.rolling.empty())
             carried.rolling_impulse[geometry.slot] = keeps ? arrays.rolling[k].impulse : Vec3::Zero().eval();

@@ -36,6 +36,7 @@ struct ContactEvent {
     double inverse_mass_sum; ///< W [1/kg]
     double carried_normal;   ///< λ_n⁽⁰⁾ [N s]
     bool jammed = false;     ///< TouchRecord
+    double u_n_turned = 0.0; ///< what the turn of a wall's normal since the step before has added to u_n [m/s]
 };
 
 /// Σ_n of a resting contact of `matched`: that of the material's stiffness k, but no stiffer than N_min sweeps can
@@ -61,15 +62,25 @@ inline double feedback_share(
 
 /// `matched` (the default): the note's own step, eq. (2), with a compliance that the sweeps can carry. Of the feedback
 /// on overlap, what exceeds the need of the carried impulse is capped, so that a deep overlap does not become a shot.
+/// A jammed contact does not hold what it carries: it parts with the cap at most, and stores nothing.
 inline NormalLaw matched_law(
     const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, const StepLength& step)
 {
     const double h = step.h();
     const double compliance = matched_compliance(law, event.inverse_mass_sum, h, solver.min_sweeps);
+    if (event.jammed) return {std::min(-4.0 / h * upsilon * event.gap, solver.push_out_speed), compliance, 0.0};
     const double share = step.is_split() ? feedback_share(event, law, solver, step) : 1.0;
     const double held = compliance * event.carried_normal;
     const double push_out = std::min(-4.0 / h * upsilon * share * event.gap - held, solver.push_out_speed);
     return {held + push_out + upsilon * event.u_n, compliance, share};
+}
+
+/// What a rigid contact at a concave wall gives back of the velocity that it takes. A sphere that runs along it goes on
+/// chords: the turn of the normal makes it meet the wall with u_n < 0 in every step, and u_n ≥ 0 would brake it. With
+/// half of the turn against each end of a chord its speed is kept. Never more than it came with.
+inline double turned_back(const ContactEvent& event)
+{
+    return std::max(0.0, std::min(-event.u_n, -0.5 * event.u_n_turned));
 }
 
 /// `projected`: rigid, u_n ≥ 0; overlap is removed by moving the spheres (position_projection.hpp). A jammed contact
@@ -77,7 +88,7 @@ inline NormalLaw matched_law(
 inline NormalLaw projected_law(
     const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, const StepLength& step)
 {
-    if (!event.jammed) return {0.0, 0.0};
+    if (!event.jammed) return {turned_back(event), 0.0};
     return {0.0, matched_compliance(law, event.inverse_mass_sum, step.h(), solver.min_sweeps)};
 }
 
@@ -85,16 +96,16 @@ inline NormalLaw projected_law(
 inline NormalLaw normal_law(
     const ContactEvent& event, const ContactLaw& law, const SolverSettings& solver, const StepLength& step)
 {
+    const bool rigid = solver.stabilisation == Stabilisation::projected;
     switch (event.kind) {
     case ContactKind::impact:
         return {-law.restitution * event.u_n, 0.0};
     case ContactKind::open:
-        return {-event.gap / step.h(), 0.0};
+        return {-event.gap / step.h() + (rigid ? turned_back(event) : 0.0), 0.0};
     case ContactKind::resting:
         break;
     }
-    return solver.stabilisation == Stabilisation::matched ? matched_law(event, law, solver, step)
-                                                          : projected_law(event, law, solver, step);
+    return rigid ? projected_law(event, law, solver, step) : matched_law(event, law, solver, step);
 }
 
 /// When two spheres that move so touch: infinite if never, negative if they overlap and approach [s].

@@ -105,7 +105,8 @@ BuiltScene build_scene(const scene::Scene& scene)
     simulation.duration = scene.time.duration;
     const SolverSettings solver = build_solver(scene.solver, accuracy.setting);
     simulation.output = build_output(scene.output);
-    simulation.incident_policy = {scene.world.on_escape == "remove", scene.solver.on_no_solution == "go_on"};
+    simulation.incident_policy = {scene.world.on_escape == "remove",
+        solver.stabilisation == Stabilisation::matched || scene.solver.on_no_solution == "go_on"};
     const Materials materials = build_materials(scene);
     const std::vector<Fill> fills = build_fills(scene, materials);
     simulation.pours = build_pours(scene, materials);

@@ -86,5 +86,5 @@ TEST_CASE("24 angular momentum with large overlap", "[hard][quick]")
         by_moving = std::max(by_moving, (angular_momentum(moved.state) - angular).norm() / scale);
     }
     hard.below("projected: angular momentum made by impulses in a step, error", by_impulses, 1e-12);
-    hard.tell("projected: angular momentum over 1000 steps, moving apart included, error", by_moving);
+    hard.below("projected: angular momentum over 1000 steps, moving apart included, error", by_moving, 1e-4);
 }

@@ -74,3 +74,36 @@ TEST_CASE("only the excess of the push-out over what the carried impulse needs i
     const double gap = -0.2 * h / (4.0 / 9.0);
     CHECK(normal_law({ContactKind::resting, gap, 0.0, w, carried}, {}, solver, {h}).target == Approx(0.2));
 }
+
+TEST_CASE("a jammed contact does not hold the impulse that it carries", "[stabilisation][press]")
+{
+    SolverSettings solver;
+    solver.push_out_speed = 0.05;
+    const double w = 2.0, carried = GENERATE(0.0, 1.0, 100.0);
+    const auto target = [&](double gap) {
+        return normal_law({ContactKind::resting, gap, -0.1, w, carried, true}, {}, solver, {h}).target;
+    };
+    CHECK(target(-1e-2) == solver.push_out_speed);
+    CHECK(target(-1e-5) == Approx(4.0 / 9.0 * 1e-5 / h));
+    solver.stabilisation = Stabilisation::projected;
+    CHECK(target(-1e-2) == 0.0);
+}
+
+TEST_CASE("a rigid contact gives back half of the turn of a concave wall, and never more than it takes",
+    "[stabilisation][tube]")
+{
+    SolverSettings solver;
+    solver.stabilisation = Stabilisation::projected;
+    const auto target = [&](double gap, double u_n, double turned) {
+        const auto kind = gap > 0.0 ? ContactKind::open : ContactKind::resting;
+        return normal_law({kind, gap, u_n, 2.0, 0.0, false, turned}, {}, solver, {h}).target;
+    };
+    CHECK(target(-1e-5, -0.5, -0.8) == Approx(0.4)); // on the chords of a circle u_n is half of the turn
+    CHECK(target(-1e-5, -0.8, -0.8) == Approx(0.4)); // from its tangent
+    CHECK(target(-1e-5, -0.1, -0.8) == Approx(0.1)); // no more than it comes with
+    CHECK(target(-1e-5, 0.1, -0.8) == 0.0);
+    CHECK(target(-1e-5, -0.5, 0.8) == 0.0); // a convex wall
+    CHECK(target(1e-4, -0.5, -0.8) == Approx(0.4 - 0.1));
+    solver.stabilisation = Stabilisation::matched;
+    CHECK(target(1e-4, -0.5, -0.8) == Approx(-0.1));
+}

@@ -77,6 +77,22 @@ TEST_CASE("a jammed contact yields until it has not been pressed for as many ste
     }
 }
 
+TEST_CASE("a crushed contact is jammed at once, and until it is shallow", "[press]")
+{
+    TouchRecord touch;
+    if (GENERATE(true, false)) touch.note_load(true);
+    touch.note_crushed();
+    CHECK(touch.is_newly_jammed());
+    for (int k = 0; k < 3 * TouchRecord::jam_steps; ++k) {
+        touch.note_crushed();
+        CHECK(touch.is_jammed());
+        CHECK_FALSE(touch.is_newly_jammed());
+    }
+    touch.note_load(true);
+    CHECK(touch.is_loaded());
+    CHECK_FALSE(touch.is_jammed());
+}
+
 TEST_CASE("overlaps at the start, a shaken bed and a heavy plate are no presses", "[press]")
 {
     SECTION("random places, a solid fraction of 0.5, with and without gravity")
