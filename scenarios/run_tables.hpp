@@ -78,8 +78,9 @@ struct SolverTable {
         key("max_sweeps", self.max_sweeps, between(1, 1000000), "",
             "sweeps after which a step goes on unconverged, which is counted and told");
         key("relaxation", self.relaxation, between(0.5, 1.6), "",
-            "of the sweeps after the least number, but where pressures are scaled; above 1 they go farther than each "
-            "contact asks for, by which fast flows converge in fewer sweeps");
+            "of the sweeps after the least number, without friction and with matched of all but the last of those too, "
+            "but where pressures are scaled; above 1 they go farther than each contact asks for, by which fast flows "
+            "converge in fewer sweeps");
         key("push_out_speed", self.push_out_speed, Allowed{.min = 0.0, .names = {"auto"}}, "m/s",
             "largest speed with which overlap is undone; auto: 0.1 sqrt(diameter x gravity), without gravity 0.0008 "
             "diameter / step");

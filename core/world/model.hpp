@@ -21,7 +21,7 @@ struct SolverSettings {
     int min_sweeps = 2;                 ///< N_min; it also sets the stiffness of `matched`
     int max_sweeps = 100;               ///< a step that stops here unconverged is counted and told
     double tolerance = 1e-2;            ///< on the residual ε, see gauss_seidel.hpp
-    double relaxation = 1.3;            ///< ω of the sweeps after the first N_min; 1: none
+    double relaxation = 1.3;            ///< ω of the sweeps that are relaxed, METHOD (6); 1: none
     double restitution_threshold = 3.0; ///< impacts slower than this times gravity × step do not rebound
     double push_out_speed = infinity;   ///< cap on the speed with which overlap is undone [m/s]
     bool pressure_scaling = false;      ///< before the sweeps, see pressure_scaling/; with `projected` only
