@@ -53,7 +53,7 @@ struct WorldTable {
 };
 
 struct SolverTable {
-    std::string stabilisation = "matched";
+    std::string stabilisation = "auto";
     NumberOrName tolerance = {0.0, "auto"};
     std::int64_t min_sweeps = 0;
     std::int64_t max_sweeps = 100;
@@ -64,14 +64,16 @@ struct SolverTable {
 
     static void describe(auto& self, auto&& key)
     {
-        key("stabilisation", self.stabilisation, one_of({"matched", "projected"}), "",
+        key("stabilisation", self.stabilisation, one_of({"auto", "matched", "projected"}), "",
             "matched: contacts as stiff as the sweeps can carry; projected: rigid contacts, overlap removed by moving "
-            "spheres");
+            "spheres; auto: matched, but where nothing flows projected for columns 150 diameters high and under a "
+            "sphere of 50000 times the mass of another");
         key("tolerance", self.tolerance,
             Allowed{.min = 0.0, .max = 1.0, .open = true, .names = {"auto", "draft", "standard", "fine", "reference"}},
             "",
             "relative residual that ends the sweeps: 5e-2, 1e-2, 1e-3, 1e-4, or a number; auto: standard, or what "
-            "accuracy picks");
+            "accuracy picks; fine where a sphere has 500 times the mass of another, and with restitution without "
+            "gravity");
         key("min_sweeps", self.min_sweeps, between(0, 10000), "",
             "least number of sweeps in a step; 0: what accuracy picks, else 2 with matched, 3 with projected, 6 where "
             "pressures are scaled in a bed of a hundred grains or deeper");

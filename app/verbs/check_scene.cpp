@@ -96,7 +96,8 @@ void print_overlaps_at_start(const Simulation& simulation, const OverlapCheck& o
 void print_explanations(const OpenedScene& opened, const OverlapCheck& overlaps)
 {
     const BuildReport& report = opened.report;
-    if (!report.accuracy.empty()) say("{}\n", report.accuracy);
+    for (const std::string& choice : {report.accuracy, report.solver})
+        if (!choice.empty()) say("{}\n", choice);
     say("{}\n{}\n{}\n", report.step, report.model, report.overlap);
     print_overlaps_at_start(opened.simulation, overlaps);
     for (const std::string& warning : report.warnings) warn("{}\n", warning);

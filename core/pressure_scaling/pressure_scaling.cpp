@@ -14,6 +14,7 @@ namespace
 
 using Eigen::VectorXd;
 
+constexpr double negligible = 1e-3;        ///< share of a load: what is missing of it need not be corrected
 constexpr double hat_spacing = 4.0;        ///< mean diameters …
 constexpr double widest_grain = 1.0;       ///< … and at least so many largest ones: a sphere must fit into a cell
 constexpr double least_growth = -0.8;      ///< α of a node: impulses stay positive …
@@ -21,10 +22,16 @@ constexpr double most_growth = 4.0;        ///< … and what carried little does
 constexpr double coarse_tolerance = 1e-4;  ///< of the coarse system, on r·D⁻¹r
 constexpr int most_coarse_iterations = 30; ///< 10 are too few, more gain nothing
 
-HatGrid make_grid(const State& state, const Model& model)
+Box box_of(const std::vector<Vec3>& positions)
 {
     Box around;
-    for (const Vec3& x : state.position) around.extend(x);
+    for (const Vec3& x : positions) around.extend(x);
+    return around;
+}
+
+HatGrid make_grid(const State& state, const Model& model)
+{
+    const Box around = box_of(state.position);
     const double spacing = std::max(hat_spacing * model.mean_diameter, widest_grain * model.max_diameter);
     return {spacing, around.grown(0.5 * model.max_diameter), model.periodicity, model.corner};
 }
@@ -81,6 +88,19 @@ void ScalingReport::then(const ScalingReport& next)
     corrections += next.corrections;
     refused += next.refused;
     largest = std::max(largest, next.largest);
+}
+
+bool needs_scaling(double change, const State& state, const Model& model)
+{
+    if (state.count() == 0) return false;
+    const double layers = box_of(state.position).extent().maxCoeff() / model.mean_diameter + 1.0;
+    double lightest = infinity, heaviest = 0.0;
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        lightest = std::min(lightest, state.mass(i));
+        heaviest = std::max(heaviest, state.mass(i));
+    }
+    for (const Piston& piston : model.pistons) heaviest = std::max(heaviest, piston.mass);
+    return change * std::max(layers * layers, heaviest / lightest) > negligible;
 }
 
 ScalingReport scale_pressure(ContactNetwork& network, PistonGroup& pistons, State& state, const Model& model)

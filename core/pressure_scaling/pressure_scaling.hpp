@@ -11,7 +11,7 @@ namespace talus
 
 /// How the corrections of a step went.
 struct ScalingReport {
-    int corrections = 0;  ///< asked for: one a step or sub-step in which anything is loaded
+    int corrections = 0;  ///< asked for: one a step or sub-step in which anything is loaded and not at rest
     int refused = 0;      ///< of them, where the energy would have risen: nothing was changed
     double largest = 0.0; ///< max |t α|: 0.1 is a pressure corrected by a tenth
 
@@ -21,6 +21,11 @@ struct ScalingReport {
 /// In a step. The power λ·y of impacts and of contacts about to open is no lack of pressure; it goes first. Right after
 /// the warm start, the scaling made a flow out of a hopper overlap nine times as much, in half as many sweeps again.
 constexpr int sweeps_before_scaling = 2;
+
+/// Whether sweeps alone leave the load of a bed wrong by more than a thousandth: they carry it through n layers in
+/// some n² of them, and under a mass M on grains of mass m in M/m.
+/// @param change ε of what the last sweep before changed
+bool needs_scaling(double change, const State& state, const Model& model);
 
 /// Pressure scaling: the impulses of all contacts are multiplied by a smooth positive field, METHOD (11)
 ///
@@ -33,8 +38,8 @@ constexpr int sweeps_before_scaling = 2;
 /// α solves A α = −e, A_st = Σ_bodies F_s·M⁻¹F_t with F_s the impulses on a body weighted by φ_s, and e_s = Σ φ_s λ·y
 /// over normal and sticking rows; it is held in [−0.8, 4]; t is the exact minimum along α of the energy ½ v·Mv − λ·q,
 /// at most 1, and where the energy would rise, nothing is done. A solution is left as it is, for λ·y = 0 at each of its
-/// contacts. To be called in every step, after sweeps_before_scaling sweeps; every few steps only, it makes forces
-/// swing.
+/// contacts. To be called in every step that needs it, after sweeps_before_scaling sweeps; every few steps only, it
+/// makes forces swing.
 ScalingReport scale_pressure(ContactNetwork& network, PistonGroup& pistons, State& state, const Model& model);
 
 } // namespace talus

@@ -42,6 +42,12 @@ template <class R> SweepSums warm_start_tile(ContactNetwork& network, std::size_
     return sums;
 }
 
+/// ε of the corrections in these sums, METHOD (9).
+double residual(const SweepSums& sums, double warm_size)
+{
+    return sums.change == 0.0 ? 0.0 : std::sqrt(sums.change / std::max(sums.size, warm_size));
+}
+
 /// The sums of each tile, and those of the pistons.
 struct PartialSums {
     std::vector<SweepSums> of_tile;
@@ -79,12 +85,13 @@ void sweep(
     if (!pistons.empty()) crew.by_one([&] { sums.of_pistons = pistons.sweep(motion); });
 }
 
-template <class R> void sweep_times(int count, ContactNetwork& network, PistonGroup& pistons, Motion* motion)
+template <class R> SweepSums sweep_times(int count, ContactNetwork& network, PistonGroup& pistons, Motion* motion)
 {
-    PartialSums unused(network.list.tiles.count());
+    PartialSums sums(network.list.tiles.count());
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
-        for (int k = 0; k < count; ++k) sweep<R>(crew, network, pistons, motion, unrelaxed, unused);
+        for (int k = 0; k < count; ++k) sweep<R>(crew, network, pistons, motion, unrelaxed, sums);
     });
+    return sums.total(unrelaxed);
 }
 
 template <class R>
@@ -92,10 +99,6 @@ SolveReport solve(ContactNetwork& network, PistonGroup& pistons, Motion* motion,
     double warm_size, int sweeps_made)
 {
     const auto tiles = network.list.tiles.count();
-    const auto residual = [&](const SweepSums& sums) {
-        const double size = std::max(sums.size, warm_size);
-        return sums.change == 0.0 ? 0.0 : std::sqrt(sums.change / size);
-    };
     // Two sets of partial sums in turn: a slow thread may still read one sweep's while a fast one writes the next.
     std::array<PartialSums, 2> swept{PartialSums(tiles), PartialSums(tiles)};
     PartialSums measured(tiles);
@@ -120,7 +123,7 @@ SolveReport solve(ContactNetwork& network, PistonGroup& pistons, Motion* motion,
             ++sweeps;
             // ε after a sweep is about what the next one would ask for: as much less as this one asked for less than
             // the last.
-            const double last_change = std::exchange(change, residual(sums.total(relaxation)));
+            const double last_change = std::exchange(change, residual(sums.total(relaxation), warm_size));
             const double expected = change < last_change ? change * change / last_change : change;
             const bool ready = sweeps >= solver.min_sweeps && (expected <= solver.tolerance || change == 0.0);
             if (!ready && sweeps < solver.max_sweeps) continue;
@@ -128,7 +131,7 @@ SolveReport solve(ContactNetwork& network, PistonGroup& pistons, Motion* motion,
                 measured.of_tile[tile] = relax_tile<R, false>(network, tile, motion, unrelaxed);
             });
             if (!pistons.empty()) crew.by_one([&] { measured.of_pistons = pistons.measure(motion); });
-            error = residual(measured.total(unrelaxed));
+            error = residual(measured.total(unrelaxed), warm_size);
         }
 #pragma omp single nowait
         report = {sweeps, error, error <= solver.tolerance};
@@ -153,10 +156,13 @@ double apply_warm_start(
     return of_tiles + pistons.warm_start(motion.data());
 }
 
-void sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
-    const ModelledPhysics& physics)
+double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
+    const ModelledPhysics& physics, double warm_size)
 {
-    with_rows(physics, [&](auto rows) { sweep_times<decltype(rows)>(count, network, pistons, motion.data()); });
+    if (count == 0) return infinity;
+    return with_rows(physics, [&](auto rows) {
+        return residual(sweep_times<decltype(rows)>(count, network, pistons, motion.data()), warm_size);
+    });
 }
 
 SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,

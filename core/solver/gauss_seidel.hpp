@@ -23,9 +23,10 @@ struct SolveReport {
 double apply_warm_start(
     ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion, const ModelledPhysics& physics);
 
-/// So many sweeps of projected Gauss–Seidel, as below, whatever the residual.
-void sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
-    const ModelledPhysics& physics);
+/// So many sweeps of projected Gauss–Seidel, as below, whatever the residual. Returns ε of the changes of
+/// the last; without one, infinity.
+double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
+    const ModelledPhysics& physics, double warm_size);
 
 /// Projected Gauss–Seidel (Algorithm 3.1 of the note) on the contacts of the network: sweeps tile colour by tile
 /// colour, the tiles of one colour in parallel, and the pistons after them, until

@@ -171,8 +171,8 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     int sweeps = 0;
     if (model.solver.pressure_scaling) {
         sweeps = std::min(sweeps_before_scaling, model.solver.max_sweeps - 1);
-        sweep_contacts(sweeps, network, pistons, state.motion, model.physics);
-        report.scaling = scale_pressure(network, pistons, state, model);
+        const double change = sweep_contacts(sweeps, network, pistons, state.motion, model.physics, warm_size);
+        if (needs_scaling(change, state, model)) report.scaling = scale_pressure(network, pistons, state, model);
     }
 
     // The contact impulses: every contact in turn until all laws hold.

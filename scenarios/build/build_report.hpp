@@ -13,6 +13,7 @@ namespace talus
 /// What there is to tell of a simulation that was built, a line each.
 struct BuildReport {
     std::string accuracy;                   ///< what the scene's accuracy picked; empty where it asks for none
+    std::string solver;                     ///< what the spheres decided of the solver; empty where it is as usual
     std::string step;                       ///< where the time step comes from
     std::string model;                      ///< what the run models and what it leaves out
     std::string overlap;                    ///< how stiff contacts are at most, and the overlap that it implies

@@ -123,10 +123,11 @@ BuiltScene build_scene(const scene::Scene& scene)
     const StepChoice step = choose_step(scene, simulation, accuracy.setting.step_factor);
     model.time_step = step.step;
     model.speed_limit = step.speed_limit;
-    model.solver = complete_solver(solver, scene.solver, simulation);
+    const SolverChoice choice = complete_solver(solver, scene, simulation);
+    model.solver = choice.settings;
 
-    BuildReport report{accuracy.explanation, explain_step(step, model.min_diameter), explain_model(model),
-        forecast_overlap(simulation), warnings_of(scene, step, model)};
+    BuildReport report{accuracy.explanation, choice.explanation, explain_step(step, model.min_diameter),
+        explain_model(model), forecast_overlap(simulation), warnings_of(scene, step, model)};
     return {std::move(simulation), std::move(report)};
 }
 

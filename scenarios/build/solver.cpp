@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace talus
@@ -15,13 +16,18 @@ namespace
 constexpr double deep = 40.0;       ///< mean diameters; in shallower beds at rest sweeps alone do nearly as well
 constexpr double very_deep = 100.0; ///< mean diameters; there three sweeps do not clean up after it (hard case 33)
 constexpr int sweeps_in_very_deep = 6;
+constexpr double column = 150.0;     ///< mean diameters; with `matched` so tall a one sways for many seconds
 constexpr double heavy = 10.0;       ///< times the lightest sphere
+constexpr double very_heavy = 500.0; ///< a sphere, times the lightest: on eight of its diameters or more it may hop
+constexpr double crushing = 5e4;     ///< 37 diameters; one of 50 pressed a grain through the floor with `matched`
+constexpr double fine = 1e-3;
 constexpr double packed_share = 0.6; ///< of the room that a bed takes
 
 /// All volumes and masses that the scene makes.
 struct Contents {
     double volume = 0.0;                        ///< of the spheres [m³]
-    double lightest = infinity, heaviest = 0.0; ///< bodies [kg]
+    double lightest = infinity, heaviest = 0.0; ///< spheres [kg]
+    double heaviest_body = 0.0;                 ///< or piston [kg]
     Box room;                                   ///< of fills and pours [m]
 };
 
@@ -49,7 +55,8 @@ Contents contents_of(const Simulation& simulation)
             add_mass(density * volume(source.mixture.max_diameter()));
         }
     }
-    for (const Piston& piston : model.pistons) all.heaviest = std::max(all.heaviest, piston.mass);
+    all.heaviest_body = all.heaviest;
+    for (const Piston& piston : model.pistons) all.heaviest_body = std::max(all.heaviest_body, piston.mass);
     return all;
 }
 
@@ -69,7 +76,35 @@ bool pressure_is_scaled(const scene::SwitchOrName& asked, const Contents& all, d
     if (asked.name != "auto") return asked.on;
     // A bed presses against its own images: that balances whatever its size, so nothing seems to keep the pressure from
     // growing. A flow down a periodic slope overlapped five times as much (hard case 35).
-    return !model.periodicity.any() && (depth >= deep || all.heaviest >= heavy * all.lightest);
+    return !model.periodicity.any() && (depth >= deep || all.heaviest_body >= heavy * all.lightest);
+}
+
+/// Whether contacts may be rigid, and it pays: nothing moves as it is told, or flows.
+bool may_be_rigid(const Simulation& simulation)
+{
+    const Model& model = simulation.model;
+    return simulation.pours.empty() && model.outlets.empty() && !model.physics.moving_walls &&
+           std::ranges::all_of(model.materials.laws, [](const ContactLaw& law) { return law.stiffness == infinity; });
+}
+
+int usual_sweeps(Stabilisation stabilisation)
+{
+    return stabilisation == Stabilisation::matched ? 2 : 3;
+}
+
+template <class... Numbers> std::string text(const char* format, Numbers... numbers)
+{
+    char buffer[200];
+    std::snprintf(buffer, sizeof buffer, format, numbers...);
+    return buffer;
+}
+
+std::string explain(const SolverSettings& solver, double depth, double ratio)
+{
+    const std::string found = ratio >= very_heavy ? text("the heaviest sphere is %.3g times the lightest", ratio)
+                                                  : text("the spheres stand %.3g diameters high", depth);
+    return text("stabilisation %s and tolerance %g, for %s",
+        solver.stabilisation == Stabilisation::projected ? "projected" : "matched", solver.tolerance, found.c_str());
 }
 
 double push_out_speed(const scene::NumberOrName& given, const Model& model)
@@ -86,7 +121,7 @@ double tolerance(const scene::NumberOrName& value, double automatic)
     if (value.name == "auto") return automatic;
     if (value.name == "draft") return 5e-2;
     if (value.name == "standard") return 1e-2;
-    if (value.name == "fine") return 1e-3;
+    if (value.name == "fine") return fine;
     if (value.name == "reference") return 1e-4;
     return value.number;
 }
@@ -95,17 +130,16 @@ double tolerance(const scene::NumberOrName& value, double automatic)
 
 Stabilisation stabilisation_of(const scene::SolverTable& table)
 {
-    return table.stabilisation == "matched" ? Stabilisation::matched : Stabilisation::projected;
+    return table.stabilisation == "projected" ? Stabilisation::projected : Stabilisation::matched;
 }
 
 SolverSettings build_solver(const scene::SolverTable& table, const RunSetting& setting)
 {
     SolverSettings solver;
     solver.stabilisation = stabilisation_of(table);
-    const int usual_sweeps = solver.stabilisation == Stabilisation::matched ? 2 : 3;
     solver.min_sweeps = table.min_sweeps > 0     ? static_cast<int>(table.min_sweeps)
                         : setting.min_sweeps > 0 ? setting.min_sweeps
-                                                 : usual_sweeps;
+                                                 : usual_sweeps(solver.stabilisation);
     solver.max_sweeps = static_cast<int>(table.max_sweeps);
     if (solver.max_sweeps < solver.min_sweeps)
         throw SceneError("solver.max_sweeps",
@@ -120,17 +154,34 @@ SolverSettings build_solver(const scene::SolverTable& table, const RunSetting& s
     return solver;
 }
 
-SolverSettings complete_solver(SolverSettings solver, const scene::SolverTable& table, const Simulation& simulation)
+SolverChoice complete_solver(SolverSettings solver, const scene::Scene& scene, const Simulation& simulation)
 {
     const Model& model = simulation.model;
-    solver.push_out_speed = push_out_speed(table.push_out_speed, model);
-    if (solver.stabilisation != Stabilisation::projected) return solver;
+    const scene::SolverTable& table = scene.solver;
     const Contents all = contents_of(simulation);
     const double depth = depth_of(all, model);
-    solver.pressure_scaling = pressure_is_scaled(table.pressure_scaling, all, depth, model);
+    const bool scaled = pressure_is_scaled(table.pressure_scaling, all, depth, model);
+    const double ratio = model.gravity.isZero() ? 1.0 : all.heaviest / all.lightest;
+    std::string explanation;
+    if (scene.accuracy.empty()) { // else measured settings decide
+        if (table.stabilisation == "auto" && scaled && (depth >= column || ratio >= crushing) &&
+            may_be_rigid(simulation)) {
+            solver.stabilisation = Stabilisation::projected;
+            if (table.min_sweeps == 0)
+                solver.min_sweeps = std::min(usual_sweeps(solver.stabilisation), solver.max_sweeps);
+        }
+        const bool gas = model.gravity.isZero() && model.physics.restitution;
+        if (table.tolerance.name == "auto" && (ratio >= very_heavy || gas)) solver.tolerance = fine;
+        if (depth >= column || ratio >= very_heavy) explanation = explain(solver, depth, ratio);
+        if (gas)
+            explanation =
+                text("tolerance %g, for impacts without gravity, whose energy nothing stills", solver.tolerance);
+    }
+    solver.push_out_speed = push_out_speed(table.push_out_speed, model);
+    solver.pressure_scaling = scaled && solver.stabilisation == Stabilisation::projected;
     if (solver.pressure_scaling && depth >= very_deep && table.min_sweeps == 0)
         solver.min_sweeps = std::clamp(sweeps_in_very_deep, solver.min_sweeps, solver.max_sweeps);
-    return solver;
+    return {solver, explanation};
 }
 
 } // namespace talus

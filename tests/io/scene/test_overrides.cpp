@@ -101,7 +101,8 @@ TEST_CASE("an override is checked like the file, and refused in its own words", 
     CHECK(refusal_of_override("time.duration=-1") ==
           "--set time.duration=-1: 'duration' must be a number of at least 0 [s], not -1");
     CHECK(refusal_of_override("solver.stabilisation=match") ==
-          "--set solver.stabilisation=match: 'stabilisation' must be 'matched' or 'projected', not the string 'match'; "
+          "--set solver.stabilisation=match: 'stabilisation' must be 'auto', 'matched' or 'projected', not the string "
+          "'match'; "
           "did you mean 'matched'?");
     CHECK(refusal_of_override("materials.steel=3") == "--set materials.steel=3: it must name one key of that table");
     CHECK(refusal_of_override("wall=3") == "--set wall=3: 'wall' must be a list of tables [[wall]], not 3");

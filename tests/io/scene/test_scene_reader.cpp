@@ -91,7 +91,8 @@ TEST_CASE("a value out of range is refused with the range and its unit", "[scene
 TEST_CASE("an unknown name of a choice is refused with the names and the nearest", "[scene_reader]")
 {
     CHECK(refusal_of("[solver]\nstabilisation = 'projectd'\n") ==
-          "scene.toml:2:17: 'stabilisation' must be 'matched' or 'projected', not the string 'projectd'; did you mean "
+          "scene.toml:2:17: 'stabilisation' must be 'auto', 'matched' or 'projected', not the string 'projectd'; did "
+          "you mean "
           "'projected'?");
     CHECK(refusal_of("[solver]\ntolerance = 'standart'\n") ==
           "scene.toml:2:13: 'tolerance' must be a number above 0 and at most 1, or 'auto', 'draft', 'standard', 'fine' "

@@ -92,3 +92,80 @@ TEST_CASE("six sweeps go with scaling in beds of a hundred grains and more", "[s
         CHECK(solver_of(deep).min_sweeps == 3);
     }
 }
+
+TEST_CASE("contacts of tall columns are rigid where nothing flows", "[solver_choice]")
+{
+    const auto open_tube = [](double depth) {
+        auto scene = tube(depth);
+        scene.solver.stabilisation = "auto";
+        return scene;
+    };
+    CHECK(solver_of(open_tube(140)).stabilisation == Stabilisation::matched);
+    auto tall = open_tube(160);
+    const auto [simulation, report] = build_scene(tall);
+    CHECK(simulation.model.solver.stabilisation == Stabilisation::projected);
+    CHECK(simulation.model.solver.pressure_scaling);
+    CHECK(simulation.model.solver.min_sweeps == 6);
+    CHECK_THAT(report.solver, Contains("stabilisation projected and tolerance 0.01"));
+
+    // Not so where a stiffness is given, spheres come in, or the scene says what it wants.
+    const int change = GENERATE(range(0, 5));
+    if (change == 0) tall.contact[0].stiffness = 1e4;
+    if (change == 1) tall.pour.push_back(small_pour());
+    if (change == 2) tall.accuracy = "2%";
+    if (change == 3) tall.solver.pressure_scaling = {false, ""};
+    if (change == 4) tall.solver.stabilisation = "matched";
+    CHECK(solver_of(tall).stabilisation == Stabilisation::matched);
+}
+
+TEST_CASE("contacts are rigid under a sphere that would press grains through the floor", "[solver_choice]")
+{
+    auto scene = small_scene();
+    scene.wall[0].max = Vec3(0.5, 0.5, 1.0);
+    scene.fill.push_back(scene.fill[0]);
+    scene.fill[1].region = box_region(Vec3(0.01, 0.01, 0.15), Vec3(0.49, 0.49, 0.9));
+    scene.fill[1].count = 1;
+    scene.fill[1].diameter.value = 0.368; // 49 836 times
+    CHECK(solver_of(scene).stabilisation == Stabilisation::matched);
+    scene.fill[1].diameter.value = 0.369; // 50 243 times
+    CHECK(solver_of(scene).stabilisation == Stabilisation::projected);
+    CHECK(solver_of(scene).min_sweeps == 3);
+    CHECK(solver_of(scene).tolerance == 1e-3);
+    CHECK(solver_of(scene).pressure_scaling);
+}
+
+TEST_CASE("the tolerance is fine where a sphere is five hundred times as heavy as another", "[solver_choice]")
+{
+    const auto with_large = [](double diameter) {
+        auto scene = small_scene();
+        scene.wall[0].max = Vec3(0.2, 0.2, 0.4);
+        scene.fill.push_back(scene.fill[0]);
+        scene.fill[1].region = box_region(Vec3(0.01, 0.01, 0.15), Vec3(0.19, 0.19, 0.35));
+        scene.fill[1].count = 1;
+        scene.fill[1].diameter.value = diameter;
+        return scene;
+    };
+    CHECK(solver_of(with_large(0.079)).tolerance == 1e-2); // 493 times
+    auto scene = with_large(0.08);                         // 512 times
+    const auto [simulation, report] = build_scene(scene);
+    CHECK(simulation.model.solver.tolerance == 1e-3);
+    CHECK(report.solver ==
+          "stabilisation matched and tolerance 0.001, for the heaviest sphere is 512 times the lightest");
+
+    SECTION("not where the scene gives one")
+    {
+        scene.solver.tolerance = {0.02, ""};
+        CHECK(solver_of(scene).tolerance == 0.02);
+    }
+    SECTION("not where it asks for an accuracy")
+    {
+        scene.accuracy = "2%";
+        CHECK(solver_of(scene).tolerance == 5e-2);
+    }
+    SECTION("not without gravity, where nothing rests on anything")
+    {
+        scene.world.gravity.setZero();
+        scene.time.step = {1e-4, ""};
+        CHECK(solver_of(scene).tolerance == 1e-2);
+    }
+}
