@@ -100,7 +100,7 @@ TEST_CASE("12 a sphere hits 2, 6 and 12 touching neighbours at once", "[hard][qu
 {
     // All impacts of a step are solved together: energy must not come of it, and what is symmetric must stay so.
     // Gauss-Seidel takes the contacts one after the other, so it is as symmetric as it is converged: 1e-10 can be asked
-    // for only there; of a run, that it stays below its tolerance of 1e-2.
+    // for only there; of a run, with the tolerance that it gets, that it stays below 1e-2.
     // With restitution the law itself can make energy, and does so amid twelve, where e = 0.9 gives 17 % (26 % with
     // friction, which can also do it alone: Kane & Levinson 1985): bounced off the four before it, the sphere is
     // pressed onto those behind it, from which it was moving away. They do not rebound but hold it at u = 0, and so the
@@ -111,11 +111,11 @@ TEST_CASE("12 a sphere hits 2, 6 and 12 touching neighbours at once", "[hard][qu
         Outcome run, converged, elastic;
         for (const double friction : {0.0, 0.5}) {
             for (const double restitution : {0.0, 0.5}) {
-                run.keep_worst(hit(target, restitution, friction, 1e-2, 100));
+                run.keep_worst(hit(target, restitution, friction, restitution > 0.0 ? 1e-3 : 1e-2, 100));
                 converged.keep_worst(hit(target, restitution, friction, 1e-14, 100000));
             }
             for (const double restitution : {0.9, 1.0})
-                elastic.keep_worst(hit(target, restitution, friction, 1e-2, 100));
+                elastic.keep_worst(hit(target, restitution, friction, 1e-3, 100));
         }
         hard.below(target.name + ": momentum, error", std::max(run.momentum, elastic.momentum), 1e-14);
         hard.below(target.name + ": gain of energy", run.gain, 1e-6);

@@ -107,9 +107,9 @@ TEST_CASE("an elastic gas of any density keeps its energy, and has the pressure 
 TEST_CASE("a gas cools by Haff's law", "[restitution][gas]")
 {
     // E = E₀ (1 + t/t₀)⁻², t₀ = 6/((1 − e²) ν) (Haff 1983), over five impacts a sphere; mean of six gases, of which one
-    // is good to 2.5 %. Inelastic spheres meet less often than Enskog has it: at a solid fraction of 0.1 and e = 0.7 by
-    // 2 %, with shorter steps too.
-    const double e = GENERATE(0.7, 0.8, 0.9, 0.95);
+    // is good to 2.5 %. Inelastic spheres meet less often than Enskog has it: at a solid fraction of 0.1 and e = 0.7 an
+    // eighth of the step has 0.980 ± 0.008 of his rate too.
+    const auto [e, of_enskog] = GENERATE(table<double, double>({{0.7, 0.98}, {0.8, 1.0}, {0.9, 1.0}, {0.95, 1.0}}));
     constexpr double solid_fraction = 0.1;
     double sum = 0.0;
     constexpr int gases = 12;
@@ -121,7 +121,7 @@ TEST_CASE("a gas cools by Haff's law", "[restitution][gas]")
         sum += cooled / (world.state.time * (1 - e * e) * rate / 6);
     }
     CAPTURE(e);
-    CHECK(sum / gases == within(0.02, 1.0));
+    CHECK(sum / gases == within(0.02, of_enskog));
 }
 
 } // namespace talus::test

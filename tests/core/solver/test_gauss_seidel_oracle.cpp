@@ -264,7 +264,11 @@ void check_against_oracle(World& world, int sweeps)
     const Eigen::VectorXd warm_impulse = dense.impulse;
     REQUIRE(warm_impulse.norm() > 0);
     warm_start(dense);
-    for (int k = 0; k < sweeps; ++k) sweep(dense, k < model.solver.min_sweeps ? 1.0 : model.solver.relaxation);
+    const bool has_soft_modes = !model.physics.friction && model.solver.stabilisation == Stabilisation::matched;
+    for (int k = 0; k < sweeps; ++k) {
+        const bool is_relaxed = k >= model.solver.min_sweeps || (has_soft_modes && k + 1 < model.solver.min_sweeps);
+        sweep(dense, is_relaxed ? model.solver.relaxation : 1.0);
+    }
 
     SolverSettings solver = model.solver;
     solver.max_sweeps = sweeps;
