@@ -10,7 +10,7 @@
 namespace talus
 {
 
-/// What is known of a contact from the steps before: whether it touched, and for how long it has been jammed.
+/// What is known of a contact from the steps before: whether it was loaded, and for how long it has been jammed.
 ///
 /// Walls that move as told may ask for what rigid bodies cannot do: a press that closes on a sphere. Then no velocity
 /// obeys all contacts, the impulses grow with every sweep, and the residual, which is relative to them, comes to say

@@ -92,7 +92,7 @@ public:
         const auto normal =
             normal_law({kind, touch.gap, u_n, w, warm.dot(touch.normal), before.is_jammed(), touch.u_n_turned}, law,
                 model_.solver, step_.length);
-        survey(touch.gap, normal);
+        note_overlap(touch.gap);
         if (kind != ContactKind::impact && law.restitution > 0.0 && !before.is_loaded() && is_left_alone(touch))
             return false;
 
@@ -102,7 +102,9 @@ public:
         arrays_.geometry[next_] = {touch.gap, wall_level, touch.slot, kind};
         if (!arrays_.wall.empty()) arrays_.wall[next_] = touch.wall;
         if (!arrays_.rolling.empty()) arrays_.rolling[next_] = rolling_row(touch, law, kind, warm.dot(touch.normal));
+        ++survey_.count;
         survey_.impacts += kind == ContactKind::impact;
+        survey_.stored_energy += stored_energy(touch.gap, normal);
         ++next_;
         return true;
     }
@@ -136,17 +138,19 @@ private:
         return row;
     }
 
-    void survey(double gap, const NormalLaw& law)
+    void note_overlap(double gap)
     {
-        ++survey_.count;
         if (gap >= 0.0) return;
         ++survey_.overlapping;
         survey_.worst_overlap = std::max(survey_.worst_overlap, -gap);
         survey_.overlap_sum -= gap;
-        // k = 4 Υ / (Σ_n h²), the stiffness that the compliance stands for.
-        if (law.compliance > 0.0 && model_.solver.stabilisation == Stabilisation::matched)
-            survey_.stored_energy +=
-                2.0 * upsilon / (law.compliance * step_.h * step_.h) * gap * gap * law.feedback_share;
+    }
+
+    /// With k = 4 Υ / (Σ_n h²), the stiffness that the compliance stands for [J].
+    double stored_energy(double gap, const NormalLaw& law) const
+    {
+        if (gap >= 0.0 || law.compliance == 0.0 || model_.solver.stabilisation != Stabilisation::matched) return 0.0;
+        return 2.0 * upsilon / (law.compliance * step_.h * step_.h) * gap * gap * law.feedback_share;
     }
 
     ContactArrays& arrays_;
