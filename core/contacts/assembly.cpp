@@ -295,6 +295,7 @@ private:
         const WallRow row = wall_row(wall, at, x, m.radius);
         const double u_n = n.dot(m.velocity - row.velocity);
         const double u_n_ahead = u_n + step_.h * n.dot(model_.gravity) - n.dot(wall.gain());
+        const double wall_inverse_mass = wall.is_piston() ? 1.0 / model_.pistons[wall.wall().piston].mass : 0.0;
         return assembly.add({.a = pair.sphere,
                                 .b = pair.wall,
                                 .normal = n,
@@ -305,18 +306,13 @@ private:
                                 .u_n_before = n.dot(m.velocity - velocity_before(wall, at, x, m.radius)),
                                 .u_n_turned = turned(wall, m, turn, slot),
                                 .arm_scale = 1.0,
-                                .inverse_mass_sum = m.inverse_mass + inverse_mass(wall),
+                                .inverse_mass_sum = m.inverse_mass + wall_inverse_mass,
                                 .rolling_radius = m.radius,
                                 .inverse_inertia_sum = inverse_inertia(m),
                                 .slot = slot,
                                 .wall = row},
             model_.materials.between(state_.material[pair.sphere], wall.wall().material),
             n.dot(state_.position[pair.sphere]) - gap + way_ahead(wall, n, row));
-    }
-
-    double inverse_mass(const PlacedWall& wall) const
-    {
-        return wall.is_piston() ? 1.0 / model_.pistons[wall.wall().piston].mass : 0.0;
     }
 
     /// By how much the wall's level rises in the step, where that is known beforehand [m].
