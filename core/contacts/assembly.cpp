@@ -93,8 +93,8 @@ public:
             normal_law({kind, touch.gap, u_n, w, warm.dot(touch.normal), before.is_jammed(), touch.u_n_turned}, law,
                 model_.solver, step_.length);
         note_overlap(touch.gap);
-        if (kind != ContactKind::impact && law.restitution > 0.0 && !before.is_loaded() && is_left_alone(touch))
-            return false;
+        const bool bears = law.restitution == 0.0 || before.is_loaded();
+        if (kind != ContactKind::impact && !bears && is_left_alone(touch)) return false;
 
         arrays_.contact[next_] = {touch.a, touch.b, touch.normal, normal.target, warm};
         arrays_.terms[next_] = {touch.arm_scale, law.friction, normal.compliance, 1.0 / (w + normal.compliance),
@@ -104,7 +104,7 @@ public:
         if (!arrays_.rolling.empty()) arrays_.rolling[next_] = rolling_row(touch, law, kind, warm.dot(touch.normal));
         ++survey_.count;
         survey_.impacts += kind == ContactKind::impact;
-        survey_.stored_energy += stored_energy(touch.gap, normal);
+        if (bears) survey_.stored_energy += stored_energy(touch.gap, normal); // what an impact overlaps is no spring
         ++next_;
         return true;
     }

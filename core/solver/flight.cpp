@@ -67,7 +67,8 @@ public:
 
     void survey_pistons()
     {
-        for (const Contact& c : network_.contacts.pistons.contact) of[c.a].held = true;
+        const ContactArrays& pistons = network_.contacts.pistons;
+        for (const std::size_t k : pistons.of_tile(0)) of[pistons.contact[k].a].held = true;
     }
 
     Vec3 across(const Contact& c) const

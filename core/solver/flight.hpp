@@ -10,7 +10,7 @@
 namespace talus
 {
 
-/// A sphere in free flight that others, or walls, meet in this step: it has impacts and no other contact. All its
+/// A sphere in free flight that others meet in this step: it has impacts with spheres and no other contact. All its
 /// impulses act at one instant τ, the mean of its impacts' own: until then it flies with v⁽¹⁾, after it with v.
 struct Flight {
     std::int32_t sphere;
