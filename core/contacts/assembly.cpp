@@ -5,6 +5,8 @@
 #include "core/contacts/law.hpp"
 #include "core/contacts/wall_contacts.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 
 namespace talus
@@ -68,15 +70,17 @@ Vec3 warm_impulse(const Vec3& carried, const Vec3& normal, double friction)
     return normal_impulse * normal + tangent;
 }
 
-/// Writes contacts of one tile into their arrays.
+/// Writes contacts of one kind and tile.
 class TileAssembly
 {
 public:
-    TileAssembly(ContactArrays& arrays, const CarriedImpulses& carried, std::size_t tile, const Model& model,
-        const StepConstants& step)
-        : arrays_(arrays), carried_(carried), tile_(tile), next_(arrays.first[tile]), model_(model), step_(step),
+    /// @param filler finds them places in packs; null: one after the other
+    TileAssembly(TileContacts& contacts, PackFiller* filler, bool with_walls, const CarriedImpulses& carried,
+        const State& state, const Model& model, const StepConstants& step)
+        : contacts_(contacts), filler_(filler), with_walls_(with_walls), carried_(carried), model_(model), step_(step),
           inertia_factor_(model.physics.spin ? inverse_inertia_factor : 0.0)
     {
+        if (filler) filler->begin(contacts, state.count());
     }
 
     bool add(const Touch& touch, const ContactLaw& law, double wall_level)
@@ -96,22 +100,22 @@ public:
         const bool bears = law.restitution == 0.0 || before.is_loaded();
         if (kind != ContactKind::impact && !bears && is_left_alone(touch)) return false;
 
-        arrays_.contact[next_] = {touch.a, touch.b, touch.normal, normal.target, warm};
-        arrays_.terms[next_] = {touch.arm_scale, law.friction, normal.compliance, 1.0 / (w + normal.compliance),
-            1.0 / (w * (1.0 + inertia_factor_ * touch.arm_scale * touch.arm_scale)), w};
-        arrays_.geometry[next_] = {touch.gap, wall_level, touch.slot, kind};
-        if (!arrays_.wall.empty()) arrays_.wall[next_] = touch.wall;
-        if (!arrays_.rolling.empty()) arrays_.rolling[next_] = rolling_row(touch, law, kind, warm.dot(touch.normal));
+        const std::size_t k = filler_ ? filler_->place(touch.a, with_walls_ ? -1 : touch.b) : contacts_.append();
+        contacts_.set(k, {touch.a, touch.b, touch.normal, normal.target, warm},
+            {touch.arm_scale, law.friction, normal.compliance, 1.0 / (w + normal.compliance),
+                1.0 / (w * (1.0 + inertia_factor_ * touch.arm_scale * touch.arm_scale)), w},
+            {touch.gap, wall_level, touch.slot, kind});
+        if (contacts_.has_moving_walls()) contacts_.set_wall(k, touch.wall);
+        if (contacts_.has_rolling()) contacts_.set_rolling(k, rolling_row(touch, law, kind, warm.dot(touch.normal)));
         ++survey_.count;
         survey_.impacts += kind == ContactKind::impact;
         if (bears) survey_.stored_energy += stored_energy(touch.gap, normal); // what an impact overlaps is no spring
-        ++next_;
         return true;
     }
 
     ContactSurvey finish()
     {
-        arrays_.count[tile_] = next_ - arrays_.first[tile_];
+        if (filler_) filler_->end();
         return survey_;
     }
 
@@ -153,15 +157,20 @@ private:
         return 2.0 * upsilon / (law.compliance * step_.h * step_.h) * gap * gap * law.feedback_share;
     }
 
-    ContactArrays& arrays_;
+    TileContacts& contacts_;
+    PackFiller* filler_;
+    bool with_walls_;
     const CarriedImpulses& carried_;
-    std::size_t tile_;
-    std::uint32_t next_;
     const Model& model_;
     const StepConstants& step_;
     double inertia_factor_; ///< 0 where spheres do not turn
     ContactSurvey survey_;
 };
+
+PackFiller& filler_of_thread(ContactNetwork& network)
+{
+    return network.contacts.fillers[static_cast<std::size_t>(omp_get_thread_num())];
+}
 
 /// @param periodic whether there is a border to reach across
 template <bool periodic>
@@ -169,7 +178,8 @@ ContactSurvey assemble_sphere_contacts(
     ContactNetwork& network, std::size_t tile, const State& state, const Model& model, const StepConstants& step)
 {
     const CandidateList& list = network.list;
-    TileAssembly assembly(network.contacts.spheres, network.carried.pairs, tile, model, step);
+    TileAssembly assembly(
+        network.contacts.spheres[tile], &filler_of_thread(network), false, network.carried.pairs, state, model, step);
     for (auto k = list.pairs_of_tile[tile]; k < list.pairs_of_tile[tile + 1]; ++k) {
         const auto [a, b] = list.pairs[k];
         const Motion& ma = state.motion[a];
@@ -325,7 +335,8 @@ private:
 ContactSurvey assemble_wall_contacts(ContactNetwork& network, std::size_t tile, const State& state, const Model& model,
     const std::vector<PlacedWall>& walls, const StepConstants& step)
 {
-    TileAssembly assembly(network.contacts.walls, network.carried.walls, tile, model, step);
+    TileAssembly assembly(
+        network.contacts.walls[tile], &filler_of_thread(network), true, network.carried.walls, state, model, step);
     WallDetection detection(network, state, model, walls, step);
     CandidateList& list = network.list;
     for (auto p = list.wall_pairs_of_tile[tile]; p < list.wall_pairs_of_tile[tile + 1]; ++p) {
@@ -339,17 +350,15 @@ ContactSurvey assemble_wall_contacts(ContactNetwork& network, std::size_t tile, 
 ContactSurvey assemble_piston_contacts(ContactNetwork& network, const State& state, const Model& model,
     const std::vector<PlacedWall>& walls, const StepConstants& step)
 {
-    TileAssembly assembly(network.contacts.pistons, network.carried.walls, 0, model, step);
+    TileAssembly assembly(network.contacts.pistons, nullptr, true, network.carried.walls, state, model, step);
     WallDetection detection(network, state, model, walls, step);
-    std::size_t contacts = 0;
     for (auto& pair : network.list.wall_pairs) {
         const PlacedWall& wall = walls[pair.wall];
         if (!wall.is_piston()) continue;
         const Vec3 center = wall.pose()(model.pistons[wall.wall().piston].center);
         detection.add_contacts(pair, assembly, [&](const WallPoint& at, const Vec3& shift) {
             const Vec3 place = state.position[pair.sphere] + shift - state.radius(pair.sphere) * at.normal;
-            network.contacts.piston_arms[contacts++] =
-                place - wall.image_of(static_cast<std::size_t>(at.patch)) - center;
+            network.contacts.piston_arms.push_back(place - wall.image_of(static_cast<std::size_t>(at.patch)) - center);
         });
     }
     return assembly.finish();

@@ -28,63 +28,64 @@ struct PressGauge {
     {
     }
 
-    void note(TouchRecord& touch, const ContactArrays& arrays, std::size_t k, bool at_wall) const
+    void note(TouchRecord& touch, const TileContacts& contacts, std::size_t k, bool at_wall) const
     {
-        const ContactGeometry& geometry = arrays.geometry[k];
-        const bool loaded = geometry.kind != ContactKind::impact && normal_impulse(arrays.contact[k]) > 0.0;
+        const ContactGeometry& geometry = contacts.geometry[k];
+        const bool loaded = geometry.kind != ContactKind::impact && normal_impulse(contacts, k) > 0.0;
         if (-geometry.gap <= overlap)
             touch.note_load(loaded);
         else if (rigid)
-            closes_under_load(arrays, k, at_wall) ? touch.note_pressed() : touch.note_unpressed();
+            closes_under_load(contacts, k, at_wall) ? touch.note_pressed() : touch.note_unpressed();
         else
-            touch.is_jammed() || is_crushed(arrays, k, at_wall) ? touch.note_crushed() : touch.note_load(loaded);
+            touch.is_jammed() || is_crushed(contacts, k, at_wall) ? touch.note_crushed() : touch.note_load(loaded);
     }
 
 private:
-    static double normal_impulse(const Contact& c) { return c.impulse.dot(c.normal); }
-
-    bool is_crushed(const ContactArrays& arrays, std::size_t k, bool at_wall) const
+    static double normal_impulse(const TileContacts& contacts, std::size_t k)
     {
-        return -arrays.geometry[k].gap > crushed && closes_under_load(arrays, k, at_wall);
+        return contacts.impulse(k).dot(contacts.normal(k));
     }
 
-    bool closes_under_load(const ContactArrays& arrays, std::size_t k, bool at_wall) const
+    bool is_crushed(const TileContacts& contacts, std::size_t k, bool at_wall) const
     {
-        const Contact& c = arrays.contact[k];
-        Vec3 u = motion[c.a].velocity;
-        if (!at_wall) u -= motion[c.b].velocity;
-        if (!arrays.wall.empty()) u -= arrays.wall[k].velocity;
-        return normal_impulse(c) > 0.0 && u.dot(c.normal) < -closing;
+        return -contacts.geometry[k].gap > crushed && closes_under_load(contacts, k, at_wall);
+    }
+
+    bool closes_under_load(const TileContacts& contacts, std::size_t k, bool at_wall) const
+    {
+        Vec3 u = motion[contacts.a(k)].velocity;
+        if (!at_wall) u -= motion[contacts.b(k)].velocity;
+        if (contacts.has_moving_walls()) u -= contacts.wall(k).velocity;
+        return normal_impulse(contacts, k) > 0.0 && u.dot(contacts.normal(k)) < -closing;
     }
 };
 
 /// Worst excess of the tangential impulse over the cone; carries the impulses of one tile's contacts of one kind.
-ContactOutcome carry(
-    const ContactArrays& arrays, std::size_t tile, CarriedImpulses& carried, const PressGauge& gauge, bool at_wall)
+ContactOutcome carry(const TileContacts& contacts, CarriedImpulses& carried, const PressGauge& gauge, bool at_wall)
 {
     ContactOutcome outcome;
-    for (const std::size_t k : arrays.of_tile(tile)) {
-        const auto& contact = arrays.contact[k];
-        const auto& geometry = arrays.geometry[k];
+    for (const std::size_t k : contacts.indices()) {
+        const Vec3 impulse = contacts.impulse(k), normal = contacts.normal(k);
+        const auto& geometry = contacts.geometry[k];
         const bool keeps = geometry.kind != ContactKind::impact;
-        const double normal_impulse = contact.impulse.dot(contact.normal);
-        const double tangent_impulse = (contact.impulse - normal_impulse * contact.normal).norm();
+        const double normal_impulse = impulse.dot(normal);
+        const double tangent_impulse = (impulse - normal_impulse * normal).norm();
         outcome.cone_violation =
-            std::max(outcome.cone_violation, tangent_impulse - arrays.terms[k].friction * normal_impulse);
+            std::max(outcome.cone_violation, tangent_impulse - contacts.friction(k) * normal_impulse);
         TouchRecord& touch = carried.touch[geometry.slot];
-        gauge.note(touch, arrays, k, at_wall);
+        gauge.note(touch, contacts, k, at_wall);
         if (touch.is_newly_jammed()) ++outcome.newly_jammed;
-        carried.impulse[geometry.slot] = keeps ? contact.impulse : Vec3::Zero().eval();
-        if (!arrays.rolling.empty())
-            carried.rolling_impulse[geometry.slot] = keeps ? arrays.rolling[k].impulse : Vec3::Zero().eval();
+        carried.impulse[geometry.slot] = keeps ? impulse : Vec3::Zero().eval();
+        if (contacts.has_rolling())
+            carried.rolling_impulse[geometry.slot] = keeps ? contacts.rolling_impulse(k) : Vec3::Zero().eval();
     }
     return outcome;
 }
 
-void note_walls_touched(const ContactArrays& arrays, std::size_t tile, State& state)
+void note_walls_touched(const TileContacts& contacts, State& state)
 {
-    for (const std::size_t k : arrays.of_tile(tile))
-        if (!arrays.contact[k].impulse.isZero(0.0)) state.last_wall[arrays.contact[k].a] = arrays.contact[k].b;
+    for (const std::size_t k : contacts.indices())
+        if (!contacts.impulse(k).isZero(0.0)) state.last_wall[contacts.a(k)] = contacts.b(k);
 }
 
 } // namespace
@@ -101,31 +102,30 @@ ContactOutcome& ContactOutcome::operator+=(const ContactOutcome& other)
 ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model, double h)
 {
     const PressGauge gauge(state, model, h);
-    const auto& [spheres, walls, pistons, arms] = network.contacts;
-    const auto tiles = static_cast<std::int64_t>(spheres.tiles());
-    std::vector<ContactOutcome> outcomes(spheres.tiles());
+    const auto& contacts = network.contacts;
+    const auto tiles = static_cast<std::int64_t>(contacts.spheres.size());
+    std::vector<ContactOutcome> outcomes(contacts.spheres.size());
 #pragma omp parallel for schedule(dynamic) if (tiles > 16)
     for (std::int64_t t = 0; t < tiles; ++t) {
         const auto tile = static_cast<std::size_t>(t);
         auto& outcome = outcomes[tile];
-        outcome = carry(spheres, tile, network.carried.pairs, gauge, false);
-        outcome += carry(walls, tile, network.carried.walls, gauge, true);
-        for (const std::size_t k : walls.of_tile(tile)) {
-            outcome.wall_impulse += walls.contact[k].impulse;
-            if (!walls.wall.empty()) outcome.wall_work += walls.contact[k].impulse.dot(walls.wall[k].velocity);
-            if (!walls.wall.empty() && !walls.rolling.empty())
-                outcome.wall_work += walls.rolling[k].impulse.dot(walls.wall[k].spin);
+        const TileContacts& walls = contacts.walls[tile];
+        outcome = carry(contacts.spheres[tile], network.carried.pairs, gauge, false);
+        outcome += carry(walls, network.carried.walls, gauge, true);
+        for (const std::size_t k : walls.indices()) {
+            outcome.wall_impulse += walls.impulse(k);
+            if (walls.has_moving_walls()) outcome.wall_work += walls.impulse(k).dot(walls.wall(k).velocity);
+            if (walls.has_moving_walls() && walls.has_rolling())
+                outcome.wall_work += walls.rolling_impulse(k).dot(walls.wall(k).spin);
         }
-        note_walls_touched(walls, tile, state);
+        note_walls_touched(walls, state);
     }
     ContactOutcome all;
     for (const auto& outcome : outcomes) all += outcome;
-    if (!pistons.empty()) {
-        PressGauge none = gauge; // a piston gives way
-        none.overlap = infinity;
-        all += carry(pistons, 0, network.carried.walls, none, true);
-        note_walls_touched(pistons, 0, state);
-    }
+    PressGauge none = gauge; // a piston gives way
+    none.overlap = infinity;
+    all += carry(contacts.pistons, network.carried.walls, none, true);
+    note_walls_touched(contacts.pistons, state);
     return all;
 }
 

@@ -8,18 +8,17 @@
 namespace talus
 {
 
-/// The core of a contact, all that a frictional sweep streams: 64 B. A sphere–sphere contact joins spheres a and b; in
-/// a sphere–wall contact b is the wall's index, and the wall has no motion.
-struct alignas(64) Contact {
+/// One contact. A sphere–sphere contact joins spheres a and b; in a sphere–wall contact b is the wall's index, and the
+/// wall has no motion.
+struct Contact {
     std::int32_t a = 0;
     std::int32_t b = 0;
     Vec3 normal = Vec3::UnitZ(); ///< n, unit, from b to a
     double target = 0.0;         ///< q_n [m/s]: the law is u_n + Σ_n λ_n ≥ q_n
     Vec3 impulse = Vec3::Zero(); ///< λ [N s] on a: normal part λ_n n with λ_n ≥ 0, the rest tangential
 };
-static_assert(sizeof(Contact) == 64);
 
-/// The constants of a contact's local solve, in a stream of their own.
+/// The constants of a contact's local solve.
 struct ContactTerms {
     double arm_scale = 1.0;   ///< s = |x_a − x_b| / (r_a + r_b); 1 at walls: lever arms add up to the centre distance
     double friction = 0.0;    ///< μ
@@ -29,14 +28,14 @@ struct ContactTerms {
     double inverse_mass_sum = 0.0; ///< W = 1/m_a + 1/m_b [1/kg]
 };
 
-/// The rolling row of a contact; the stream exists only where a scene has rolling resistance.
+/// The rolling row of a contact; only where a scene has rolling resistance.
 struct RollingRow {
     Vec3 impulse = Vec3::Zero(); ///< angular impulse on a [N m s], at right angles to n
     double reach = 0.0;          ///< μ_r R* [m]: |impulse| ≤ μ_r R* λ_n
     double inertia = 0.0;        ///< 1 / (1/I_a + 1/I_b) [kg m²]
 };
 
-/// How the wall moves where a contact is, the mean over the step; the stream exists only where walls move.
+/// How the wall moves where a contact is, the mean over the step; only where walls move.
 struct WallRow {
     Vec3 velocity = Vec3::Zero(); ///< of its material at x − r n [m/s]
     Vec3 spin = Vec3::Zero();     ///< [rad/s]

@@ -2,46 +2,22 @@
 #pragma once
 
 #include "core/candidates/candidate_list.hpp"
-#include "core/contacts/contact.hpp"
+#include "core/contacts/pack_filler.hpp"
 
-#include <cstdint>
-#include <ranges>
 #include <vector>
 
 namespace talus
 {
 
-/// Contacts of one kind in one step, by tile.
-struct ContactArrays {
-    std::vector<Contact> contact;
-    std::vector<ContactTerms> terms;
-    std::vector<RollingRow> rolling; ///< empty unless the scene has rolling resistance
-    std::vector<WallRow> wall;       ///< empty unless walls move, and between spheres
-    std::vector<ContactGeometry> geometry;
-    std::vector<std::uint32_t> first; ///< by tile: where its contacts begin, and …
-    std::vector<std::uint32_t> count; ///< … how many there are; the rest of a tile's slots is not used
-
-    /// Makes room for as many contacts as there are slots.
-    /// @param first_slot of each tile, and the number of all
-    void resize(const std::vector<std::uint32_t>& first_slot, bool with_rolling, bool with_moving_walls = false);
-
-    std::size_t tiles() const { return count.size(); }
-    bool empty() const { return contact.empty(); }
-    /// The indices of the contacts of a tile.
-    auto of_tile(std::size_t tile) const
-    {
-        return std::views::iota(std::size_t{first[tile]}, std::size_t{first[tile]} + count[tile]);
-    }
-};
-
 /// The contacts of one step; scratch, made anew in every step.
 struct StepContacts {
-    ContactArrays spheres;
-    ContactArrays walls;           ///< without those with pistons …
-    ContactArrays pistons;         ///< … which one thread takes after the tiles: all are in one
-    std::vector<Vec3> piston_arms; ///< from the centre of the piston to where the contact is [m]
+    std::vector<TileContacts> spheres; ///< by tile
+    std::vector<TileContacts> walls;   ///< by tile; without those with pistons …
+    TileContacts pistons;              ///< … which one thread takes after the tiles, one by one
+    std::vector<Vec3> piston_arms;     ///< by contact: from the centre of the piston to where it is [m]
+    std::vector<PackFiller> fillers;   ///< by thread
 
-    /// Makes room for as many contacts as the list has slots.
+    /// Makes room for the tiles of the list.
     void resize(const CandidateList& list, const ModelledPhysics& physics);
     /// Forgets them, where spheres have been renumbered since.
     void clear();

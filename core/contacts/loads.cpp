@@ -29,15 +29,17 @@ WallLoad& WallLoad::operator+=(const WallLoad& other)
 std::vector<WallLoad> wall_loads(const ContactNetwork& network, const State& state, std::size_t walls)
 {
     std::vector<WallLoad> loads(walls);
-    for (const ContactArrays* contacts : {&network.contacts.walls, &network.contacts.pistons})
-        for (std::size_t tile = 0; tile < contacts->tiles(); ++tile)
-            for (const std::size_t k : contacts->of_tile(tile)) {
-                const Contact& c = contacts->contact[k];
-                const Vec3 point = state.position[c.a] - state.radius(c.a) * c.normal;
-                loads[c.b].impulse -= c.impulse;
-                loads[c.b].torque -= point.cross(c.impulse);
-                if (!contacts->rolling.empty()) loads[c.b].torque -= contacts->rolling[k].impulse;
-            }
+    const auto add = [&](const TileContacts& contacts) {
+        for (const std::size_t k : contacts.indices()) {
+            const Contact c = contacts.contact(k);
+            const Vec3 point = state.position[c.a] - state.radius(c.a) * c.normal;
+            loads[c.b].impulse -= c.impulse;
+            loads[c.b].torque -= point.cross(c.impulse);
+            if (contacts.has_rolling()) loads[c.b].torque -= contacts.rolling_impulse(k);
+        }
+    };
+    for (const TileContacts& tile : network.contacts.walls) add(tile);
+    add(network.contacts.pistons);
     return loads;
 }
 

@@ -10,25 +10,24 @@
 namespace talus
 {
 
-/// Calls use(contact, geometry) for each of these contacts of the last step that has an impulse, tile by tile.
-template <class Use> void for_each_loaded(const ContactArrays& contacts, Use&& use)
+/// Calls use(contact, geometry) for each of these contacts of the last step that has an impulse.
+template <class Use> void for_each_loaded(const TileContacts& contacts, Use&& use)
 {
-    for (std::size_t tile = 0; tile < contacts.tiles(); ++tile)
-        for (const std::size_t k : contacts.of_tile(tile))
-            if (!contacts.contact[k].impulse.isZero(0.0)) use(contacts.contact[k], contacts.geometry[k]);
+    for (const std::size_t k : contacts.indices())
+        if (!contacts.impulse(k).isZero(0.0)) use(contacts.contact(k), contacts.geometry[k]);
 }
 
 /// The loaded contacts between spheres. Those who need the branch from b to a take (r_a + r_b + gap) n, which is right
 /// wherever the two centres are kept; the difference of the positions is not where space is periodic.
 template <class Use> void for_each_loaded_sphere_contact(const ContactNetwork& network, Use&& use)
 {
-    for_each_loaded(network.contacts.spheres, use);
+    for (const TileContacts& tile : network.contacts.spheres) for_each_loaded(tile, use);
 }
 
 /// The loaded contacts between a sphere and a wall, pistons last; the wall is touched at (r_a + gap) n from the centre.
 template <class Use> void for_each_loaded_wall_contact(const ContactNetwork& network, Use&& use)
 {
-    for_each_loaded(network.contacts.walls, use);
+    for (const TileContacts& tile : network.contacts.walls) for_each_loaded(tile, use);
     for_each_loaded(network.contacts.pistons, use);
 }
 

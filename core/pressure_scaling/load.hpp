@@ -35,9 +35,9 @@ struct Loads {
 };
 
 /// Whether the contact carries anything.
-inline bool is_loaded(const Contact& c)
+inline bool is_loaded(const TileContacts& contacts, std::size_t k)
 {
-    return c.impulse.dot(c.normal) > 0.0;
+    return contacts.impulse(k).dot(contacts.normal(k)) > 0.0;
 }
 
 /// What the contacts carry after the warm start, at these velocities. Tiles in parallel.

@@ -2,8 +2,8 @@
 #include "core/pressure_scaling/pressure_scaling.hpp"
 
 #include "core/pressure_scaling/galerkin.hpp"
-#include "core/solver/contact_kernel.hpp"
 #include "core/solver/tile_crew.hpp"
+#include "core/solver/whole_contact.hpp"
 
 #include <algorithm>
 
@@ -59,26 +59,34 @@ std::vector<double> growth_of_loads(
     return result;
 }
 
+/// @param share by which each loaded contact grows. @return behind the last of them
+template <bool wall, class R> const double* scale(TileContacts& contacts, const double* share, Motion* motion)
+{
+    for (const std::size_t k : contacts.indices()) {
+        if (!is_loaded(contacts, k)) continue;
+        const WholeContact own = whole_contact<wall, R>(contacts, k);
+        const Vec3 change = *share * own.contact.impulse;
+        contacts.set_impulse(k, own.contact.impulse + change);
+        apply_impulse<wall, R>(own, change, motion);
+        if constexpr (R::rolling) {
+            const Vec3 rolling = *share * own.rolling.impulse;
+            contacts.set_rolling_impulse(k, own.rolling.impulse + rolling);
+            apply_rolling_impulse<wall>(own.contact, rolling, motion);
+        }
+        ++share;
+    }
+    return share;
+}
+
 template <class R>
 void apply(ContactNetwork& network, const Loads& loads, const std::vector<double>& growth, Motion* motion)
 {
-    const auto scale = [&](std::size_t tile) {
-        auto k = loads.first[tile];
-        for_each_contact(
-            network.contacts, tile, [&](Contact& c, const ContactTerms& terms, const SideRows& rows, auto is_wall) {
-                if (!is_loaded(c)) return;
-                const double share = growth[k++];
-                const Vec3 change = share * c.impulse;
-                c.impulse += change;
-                apply_impulse<is_wall(), R>(c, terms, change, motion);
-                if constexpr (R::rolling) {
-                    const Vec3 rolling = share * rows.rolling->impulse;
-                    rows.rolling->impulse += rolling;
-                    apply_rolling_impulse<is_wall()>(c, rolling, motion);
-                }
-            });
+    const auto scale_tile = [&](std::size_t tile) {
+        const double* const share = growth.data() + loads.first[tile];
+        scale<true, R>(
+            network.contacts.walls[tile], scale<false, R>(network.contacts.spheres[tile], share, motion), motion);
     };
-    with_tile_crew(network.list.tiles, [&](TileCrew& crew) { crew.color_by_color(scale); });
+    with_tile_crew(network.list.tiles, [&](TileCrew& crew) { crew.color_by_color(scale_tile); });
 }
 
 } // namespace

@@ -43,23 +43,22 @@ public:
     /// Tiles of one colour may be surveyed at the same time.
     void survey(std::size_t tile)
     {
-        const auto& [spheres, walls, pistons, arms] = network_.contacts;
-        for (const std::size_t k : spheres.of_tile(tile)) {
-            const Contact& c = spheres.contact[k];
-            const double instant = instant_of(c, spheres.geometry[k]);
-            of[c.a].add(spheres.geometry[k], instant);
-            of[c.b].add(spheres.geometry[k], instant);
+        const TileContacts &spheres = network_.contacts.spheres[tile], &walls = network_.contacts.walls[tile];
+        for (const std::size_t k : spheres.indices()) {
+            const double instant = instant_of(spheres, k);
+            of[spheres.a(k)].add(spheres.geometry[k], instant);
+            of[spheres.b(k)].add(spheres.geometry[k], instant);
         }
-        for (const std::size_t k : walls.of_tile(tile)) of[walls.contact[k].a].held = true;
+        for (const std::size_t k : walls.indices()) of[walls.a(k)].held = true;
     }
 
     /// Keeps those that meet one other that meets none but them. Moved by one instant they keep their potential energy,
     /// several that meet each other do not.
     void keep_pairs(std::size_t tile)
     {
-        const ContactArrays& spheres = network_.contacts.spheres;
-        for (const std::size_t k : spheres.of_tile(tile)) {
-            Meetings &a = of[spheres.contact[k].a], &b = of[spheres.contact[k].b];
+        const TileContacts& spheres = network_.contacts.spheres[tile];
+        for (const std::size_t k : spheres.indices()) {
+            Meetings &a = of[spheres.a(k)], &b = of[spheres.b(k)];
             if (a.meets_one() && b.meets_one()) continue;
             a.held = b.held = true;
         }
@@ -67,13 +66,13 @@ public:
 
     void survey_pistons()
     {
-        const ContactArrays& pistons = network_.contacts.pistons;
-        for (const std::size_t k : pistons.of_tile(0)) of[pistons.contact[k].a].held = true;
+        const TileContacts& pistons = network_.contacts.pistons;
+        for (const std::size_t k : pistons.indices()) of[pistons.a(k)].held = true;
     }
 
-    Vec3 across(const Contact& c) const
+    Vec3 across(std::int32_t a, std::int32_t b) const
     {
-        return model_.periodicity.nearest_image(state_.position[c.a] - state_.position[c.b]);
+        return model_.periodicity.nearest_image(state_.position[a] - state_.position[b]);
     }
 
     std::vector<Meetings> of; ///< by sphere
@@ -84,20 +83,24 @@ private:
     const Model& model_;
     double h_;
 
-    double instant_of(const Contact& c, const ContactGeometry& geometry) const
+    double instant_of(const TileContacts& spheres, std::size_t k) const
     {
-        if (geometry.kind != ContactKind::impact) return 0.0;
-        const Motion &a = state_.motion[c.a], &b = state_.motion[c.b];
-        return std::clamp(closing_time(across(c), a.velocity - b.velocity, a.radius + b.radius), -h_, h_);
+        if (spheres.geometry[k].kind != ContactKind::impact) return 0.0;
+        const Motion &a = state_.motion[spheres.a(k)], &b = state_.motion[spheres.b(k)];
+        const double closes =
+            closing_time(across(spheres.a(k), spheres.b(k)), a.velocity - b.velocity, a.radius + b.radius);
+        return std::clamp(closes, -h_, h_);
     }
 };
 
 /// The impact between spheres, seen from where both are at their instants.
-void place(Contact& c, ContactTerms& terms, const MeetingSurvey& meetings, const State& state, const Model& model)
+void place(TileContacts& spheres, std::size_t k, const MeetingSurvey& meetings, const State& state, const Model& model)
 {
+    Contact c = spheres.contact(k);
+    ContactTerms terms = spheres.terms(k);
     const Motion &a = state.motion[c.a], &b = state.motion[c.b];
     const Vec3 at_instants =
-        meetings.across(c) + meetings.of[c.a].instant() * a.velocity - meetings.of[c.b].instant() * b.velocity;
+        meetings.across(c.a, c.b) + meetings.of[c.a].instant() * a.velocity - meetings.of[c.b].instant() * b.velocity;
     const double distance = at_instants.norm();
     if (distance == 0.0) return;
     c.normal = at_instants / distance;
@@ -107,6 +110,7 @@ void place(Contact& c, ContactTerms& terms, const MeetingSurvey& meetings, const
     if (model.physics.spin)
         terms.tangent_mass =
             1.0 / (terms.inverse_mass_sum * (1.0 + inverse_inertia_factor * terms.arm_scale * terms.arm_scale));
+    spheres.set(k, c, terms, spheres.geometry[k]);
 }
 
 } // namespace
@@ -114,15 +118,14 @@ void place(Contact& c, ContactTerms& terms, const MeetingSurvey& meetings, const
 std::vector<Flight> place_impacts(ContactNetwork& network, const State& state, const Model& model, double h)
 {
     MeetingSurvey meetings(network, state, model, h);
-    ContactArrays& spheres = network.contacts.spheres;
     if (model.physics.pistons) meetings.survey_pistons();
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
         crew.color_by_color([&](std::size_t tile) { meetings.survey(tile); });
         if (!model.gravity.isZero()) crew.color_by_color([&](std::size_t tile) { meetings.keep_pairs(tile); });
         crew.all_at_once([&](std::size_t tile) {
-            for (const std::size_t k : spheres.of_tile(tile))
-                if (spheres.geometry[k].kind == ContactKind::impact)
-                    place(spheres.contact[k], spheres.terms[k], meetings, state, model);
+            TileContacts& spheres = network.contacts.spheres[tile];
+            for (const std::size_t k : spheres.indices())
+                if (spheres.geometry[k].kind == ContactKind::impact) place(spheres, k, meetings, state, model);
         });
     });
 

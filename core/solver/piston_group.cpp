@@ -28,7 +28,7 @@ public:
     {
         for (std::size_t k = 0; k < model_.pistons.size(); ++k)
             add_piston_body(made_.problem, model_.pistons[k], state_.pistons[k], model_.gravity, h_, state_.time);
-        for (const std::size_t k : contacts_.of_tile(0)) add_contact(k);
+        for (const std::size_t k : contacts_.indices()) add_contact(k);
         for (std::size_t k = 0; k < model_.pistons.size(); ++k)
             add_guide(made_.problem, k, model_.pistons[k], state_.pistons[k], h_, state_.time);
         set_warm_impulse();
@@ -38,7 +38,7 @@ public:
 private:
     static constexpr std::size_t unknown = 0; ///< the number of a piston, never that of a sphere
 
-    const ContactArrays& contacts_;
+    const TileContacts& contacts_;
     const std::vector<Vec3>& arms_;
     const State& state_;
     const Model& model_;
@@ -61,8 +61,8 @@ private:
 
     void add_contact(std::size_t k)
     {
-        const Contact& c = contacts_.contact[k];
-        const ContactTerms& terms = contacts_.terms[k];
+        const Contact c = contacts_.contact(k);
+        const ContactTerms terms = contacts_.terms(k);
         const auto& basis = made_.bases.emplace_back(contact_basis(c.normal));
         const auto piston = static_cast<std::size_t>(model_.walls[c.b].piston);
         talus::add_contact(made_.problem, contacts_, k, basis, rows_,
@@ -70,18 +70,18 @@ private:
                 {piston, piston_rows(basis, rows_, arms_[k])}});
         made_.warm_size += terms.inverse_mass_sum * c.impulse.squaredNorm();
         if (model_.physics.rolling)
-            made_.warm_size += contacts_.rolling[k].impulse.squaredNorm() / contacts_.rolling[k].inertia;
+            made_.warm_size += contacts_.rolling_impulse(k).squaredNorm() / contacts_.rolling(k).inertia;
     }
 
     void set_warm_impulse()
     {
         const auto& constraints = made_.problem.constraints();
         made_.warm_impulse.resize(made_.problem.rows());
-        for (const std::size_t k : contacts_.of_tile(0))
+        for (const std::size_t k : contacts_.indices())
             made_.warm_impulse.segment(constraints[k].first_row, rows_) =
                 impulse_in_rows(contacts_, k, made_.bases[k], rows_);
         for (std::size_t k = 0; k < model_.pistons.size(); ++k) {
-            const Constraint& guide = constraints[contacts_.count[0] + k];
+            const Constraint& guide = constraints[contacts_.count() + k];
             made_.warm_impulse.segment(guide.first_row, guide.rows) = state_.pistons[k].guide_impulse.head(guide.rows);
         }
     }
@@ -146,16 +146,16 @@ void PistonGroup::store(ContactNetwork& network, State& state) const
     if (empty()) return;
     auto& contacts = network.contacts.pistons;
     const auto& impulse = iterate_.impulse();
-    for (const std::size_t k : contacts.of_tile(0)) {
+    for (const std::size_t k : contacts.indices()) {
         const auto own = own_.problem.rows_of(k, impulse);
-        contacts.contact[k].impulse = own_.bases[k] * own.head<contact_rows>();
-        if (!contacts.rolling.empty())
-            contacts.rolling[k].impulse =
-                own_.bases[k].rightCols<multibody::rolling_rows>() * own.tail<multibody::rolling_rows>();
+        contacts.set_impulse(k, own_.bases[k] * own.head<contact_rows>());
+        if (contacts.has_rolling())
+            contacts.set_rolling_impulse(
+                k, own_.bases[k].rightCols<multibody::rolling_rows>() * own.tail<multibody::rolling_rows>());
     }
     for (std::size_t k = 0; k < state.pistons.size(); ++k) {
         PistonState& piston = state.pistons[k];
-        const auto guide = own_.problem.rows_of(contacts.count[0] + k, impulse);
+        const auto guide = own_.problem.rows_of(contacts.count() + k, impulse);
         piston.guide_impulse.setZero();
         piston.guide_impulse.head(guide.size()) = guide;
         const auto velocity = own_.problem.dofs_of(k, iterate_.velocity());

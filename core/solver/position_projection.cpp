@@ -62,20 +62,20 @@ void separate_from_piston(
 void project_positions(
     const ContactNetwork& network, State& state, const Model& model, const std::vector<PlacedWall>& walls, double share)
 {
-    const auto& [spheres, at_walls, pistons, arms] = network.contacts;
     const auto separate = [&](std::size_t tile) {
-        for (const std::size_t k : spheres.of_tile(tile))
+        const TileContacts &spheres = network.contacts.spheres[tile], &at_walls = network.contacts.walls[tile];
+        for (const std::size_t k : spheres.indices())
             if (overlap_stays(spheres.geometry[k]))
-                separate_spheres(spheres.contact[k], state, model.periodicity, share);
-        for (const std::size_t k : at_walls.of_tile(tile))
+                separate_spheres(spheres.contact(k), state, model.periodicity, share);
+        for (const std::size_t k : at_walls.indices())
             if (overlap_stays(at_walls.geometry[k]))
-                separate_from_wall(at_walls.contact[k], at_walls.geometry[k].wall_level, state, share);
+                separate_from_wall(at_walls.contact(k), at_walls.geometry[k].wall_level, state, share);
     };
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) { crew.color_by_color(separate); });
 
-    if (!model.physics.pistons) return;
-    for (const std::size_t k : pistons.of_tile(0)) {
-        const Contact& c = pistons.contact[k];
+    const TileContacts& pistons = network.contacts.pistons;
+    for (const std::size_t k : pistons.indices()) {
+        const Contact c = pistons.contact(k);
         const PlacedWall& wall = walls[c.b];
         separate_from_piston(c, pistons.geometry[k].wall_level, model.pistons[wall.wall().piston], wall, state, share);
     }
@@ -89,13 +89,11 @@ void hold_at_walls(
         const double overlap = wall_level - c.normal.dot(state.position[c.a]);
         if (overlap > deepest) state.position[c.a] += (overlap - deepest) * c.normal;
     };
-    const auto& at_walls = network.contacts.walls;
-    for (std::size_t tile = 0; tile < at_walls.tiles(); ++tile)
-        for (const std::size_t k : at_walls.of_tile(tile)) hold(at_walls.contact[k], at_walls.geometry[k].wall_level);
-    if (!model.physics.pistons) return;
-    const auto& pistons = network.contacts.pistons;
-    for (const std::size_t k : pistons.of_tile(0)) {
-        const Contact& c = pistons.contact[k];
+    for (const TileContacts& at_walls : network.contacts.walls)
+        for (const std::size_t k : at_walls.indices()) hold(at_walls.contact(k), at_walls.geometry[k].wall_level);
+    const TileContacts& pistons = network.contacts.pistons;
+    for (const std::size_t k : pistons.indices()) {
+        const Contact c = pistons.contact(k);
         const PlacedWall& began = walls[c.b];
         const Vec3 way = way_of(model.pistons[began.wall().piston], began, state);
         hold(c, pistons.geometry[k].wall_level + c.normal.dot(way));

@@ -71,24 +71,24 @@ MatrixXd sphere_rows(
     return G.leftCols(spin ? 6 : 3);
 }
 
-void add_contact(Problem& problem, const ContactArrays& arrays, std::size_t k, const Eigen::Matrix3d& basis, Index rows,
-    const std::vector<multibody::BodyRows>& bodies)
+void add_contact(Problem& problem, const TileContacts& contacts, std::size_t k, const Eigen::Matrix3d& basis,
+    Index rows, const std::vector<multibody::BodyRows>& bodies)
 {
-    const ContactTerms& terms = arrays.terms[k];
+    const ContactTerms terms = contacts.terms(k);
     VectorXd compliance = VectorXd::Zero(rows), target = VectorXd::Zero(rows);
     compliance[0] = terms.compliance;
-    if (!arrays.wall.empty()) target = in_rows(basis, rows, arrays.wall[k].velocity, arrays.wall[k].spin);
-    target[0] += arrays.contact[k].target;
+    if (contacts.has_moving_walls()) target = in_rows(basis, rows, contacts.wall(k).velocity, contacts.wall(k).spin);
+    target[0] += contacts.contact(k).target;
     problem.add_constraint({.law = Law::contact,
                                .friction = terms.friction,
-                               .rolling_reach = arrays.rolling.empty() ? 0.0 : arrays.rolling[k].reach},
+                               .rolling_reach = contacts.has_rolling() ? contacts.rolling(k).reach : 0.0},
         bodies, compliance, target);
 }
 
-VectorXd impulse_in_rows(const ContactArrays& arrays, std::size_t k, const Eigen::Matrix3d& basis, Index rows)
+VectorXd impulse_in_rows(const TileContacts& contacts, std::size_t k, const Eigen::Matrix3d& basis, Index rows)
 {
-    const Vec3 rolling = arrays.rolling.empty() ? Vec3::Zero().eval() : arrays.rolling[k].impulse;
-    return in_rows(basis, rows, arrays.contact[k].impulse, rolling);
+    const Vec3 rolling = contacts.has_rolling() ? contacts.rolling_impulse(k) : Vec3::Zero().eval();
+    return in_rows(basis, rows, contacts.impulse(k), rolling);
 }
 
 void add_piston_body(

@@ -33,12 +33,12 @@ Eigen::MatrixXd sphere_rows(
 
 /// Appends a contact: its law, its compliance and its target, in which the prescribed velocity of a wall stands.
 /// @param bodies what they contribute to its rows
-void add_contact(multibody::Problem& problem, const ContactArrays& arrays, std::size_t k, const Eigen::Matrix3d& basis,
+void add_contact(multibody::Problem& problem, const TileContacts& contacts, std::size_t k, const Eigen::Matrix3d& basis,
     Eigen::Index rows, const std::vector<multibody::BodyRows>& bodies);
 
 /// The impulses that a contact has, by its rows.
 Eigen::VectorXd impulse_in_rows(
-    const ContactArrays& arrays, std::size_t k, const Eigen::Matrix3d& basis, Eigen::Index rows);
+    const TileContacts& contacts, std::size_t k, const Eigen::Matrix3d& basis, Eigen::Index rows);
 
 /// A piston with the velocity of its centre and its spin; p = M v⁽⁰⁾ + h f.
 /// @param h of the step [s], which begins at this time [s]

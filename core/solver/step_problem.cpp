@@ -26,22 +26,22 @@ public:
                 stated_.problem, model.pistons[k], state.pistons[k], model.gravity, model.time_step, state.time);
     }
 
-    void add_sphere_contact(const ContactArrays& arrays, std::size_t k)
+    void add_sphere_contact(const TileContacts& contacts, std::size_t k)
     {
-        add_contact(arrays, k, [&](const Eigen::Matrix3d& basis) {
-            return BodyRows{static_cast<std::size_t>(arrays.contact[k].b),
-                sphere_rows(basis, rows_, state_.motion[arrays.contact[k].b], model_.physics.spin, -1.0,
-                    arrays.terms[k].arm_scale)};
+        add_contact(contacts, k, [&](const Eigen::Matrix3d& basis) {
+            return BodyRows{
+                static_cast<std::size_t>(contacts.b(k)), sphere_rows(basis, rows_, state_.motion[contacts.b(k)],
+                                                             model_.physics.spin, -1.0, contacts.terms(k).arm_scale)};
         });
     }
 
-    void add_wall_contact(const ContactArrays& arrays, std::size_t k) { add_contact(arrays, k, nullptr); }
+    void add_wall_contact(const TileContacts& contacts, std::size_t k) { add_contact(contacts, k, nullptr); }
 
     /// @param arm from the piston's centre [m]
-    void add_piston_contact(const ContactArrays& arrays, std::size_t k, const Vec3& arm)
+    void add_piston_contact(const TileContacts& contacts, std::size_t k, const Vec3& arm)
     {
-        const auto piston = static_cast<std::size_t>(model_.walls[arrays.contact[k].b].piston);
-        add_contact(arrays, k, [&](const Eigen::Matrix3d& basis) {
+        const auto piston = static_cast<std::size_t>(model_.walls[contacts.b(k)].piston);
+        add_contact(contacts, k, [&](const Eigen::Matrix3d& basis) {
             return BodyRows{state_.count() + piston, piston_rows(basis, rows_, arm)};
         });
     }
@@ -70,15 +70,15 @@ private:
 
     /// @param rows_of_other returns what body b contributes; null at a wall
     template <class RowsOfOther>
-    void add_contact(const ContactArrays& arrays, std::size_t k, RowsOfOther&& rows_of_other)
+    void add_contact(const TileContacts& contacts, std::size_t k, RowsOfOther&& rows_of_other)
     {
-        const Contact& c = arrays.contact[k];
+        const Contact c = contacts.contact(k);
         const Eigen::Matrix3d basis = contact_basis(c.normal);
         std::vector<BodyRows> bodies = {{static_cast<std::size_t>(c.a),
-            sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, arrays.terms[k].arm_scale)}};
+            sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, contacts.terms(k).arm_scale)}};
         if constexpr (!std::is_null_pointer_v<std::decay_t<RowsOfOther>>) bodies.push_back(rows_of_other(basis));
-        talus::add_contact(stated_.problem, arrays, k, basis, rows_, bodies);
-        append_warm(impulse_in_rows(arrays, k, basis, rows_));
+        talus::add_contact(stated_.problem, contacts, k, basis, rows_, bodies);
+        append_warm(impulse_in_rows(contacts, k, basis, rows_));
     }
 
     void append_warm(const VectorXd& impulse) { warm_.insert(warm_.end(), impulse.begin(), impulse.end()); }
@@ -89,13 +89,14 @@ private:
 StepProblem make_step_problem(const State& state, const ContactNetwork& network, const Model& model)
 {
     Statement statement(state, model);
-    const auto& [spheres, walls, pistons, arms] = network.contacts;
-    for (std::size_t tile = 0; tile < spheres.tiles(); ++tile) {
-        for (const std::size_t k : spheres.of_tile(tile)) statement.add_sphere_contact(spheres, k);
-        for (const std::size_t k : walls.of_tile(tile)) statement.add_wall_contact(walls, k);
+    const StepContacts& contacts = network.contacts;
+    for (std::size_t tile = 0; tile < contacts.spheres.size(); ++tile) {
+        for (const std::size_t k : contacts.spheres[tile].indices())
+            statement.add_sphere_contact(contacts.spheres[tile], k);
+        for (const std::size_t k : contacts.walls[tile].indices()) statement.add_wall_contact(contacts.walls[tile], k);
     }
-    if (model.physics.pistons)
-        for (const std::size_t k : pistons.of_tile(0)) statement.add_piston_contact(pistons, k, arms[k]);
+    for (const std::size_t k : contacts.pistons.indices())
+        statement.add_piston_contact(contacts.pistons, k, contacts.piston_arms[k]);
     statement.add_guides();
     return statement.finished();
 }

@@ -92,11 +92,10 @@ std::vector<Incident> find_presses(const ContactNetwork& network, const State& s
 
 std::vector<Incident> find_walls_inside(const ContactNetwork& network, const State& state, const Model& model)
 {
-    const ContactArrays& contacts = network.contacts.walls;
     std::map<std::int32_t, Incident> found; // by wall
-    for (std::size_t tile = 0; tile < contacts.tiles(); ++tile)
-        for (const std::size_t k : contacts.of_tile(tile)) {
-            const auto [sphere, wall] = std::pair(contacts.contact[k].a, contacts.contact[k].b);
+    for (const TileContacts& contacts : network.contacts.walls)
+        for (const std::size_t k : contacts.indices()) {
+            const auto [sphere, wall] = std::pair(contacts.a(k), contacts.b(k));
             const ContactGeometry& geometry = contacts.geometry[k];
             const double age = state.time - model.walls[wall].appear_at;
             const bool is_new = model.walls[wall].appear_at > 0.0 && age < 2.0 * model.time_step &&

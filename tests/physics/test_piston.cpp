@@ -215,7 +215,7 @@ TEST_CASE("what a plate in a jostling heap gains in momentum is what gravity, lo
     for (int k = 0; k < 400; ++k) {
         const Vec3 before = world.momentum();
         world.step();
-        contacts += world.network.contacts.pistons.count[0];
+        contacts += world.network.contacts.pistons.count();
         const auto& by_guide = world.state.pistons[piston].guide_impulse;
         const Vec3 given = h * (weights * world.model.gravity - load * guide) + world.report.outcome.wall_impulse +
                            by_guide[0] * across + by_guide[1] * guide.cross(across);

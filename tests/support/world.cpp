@@ -110,9 +110,10 @@ std::size_t World::index_of(std::int64_t id) const
 std::vector<ContactForce> World::contact_forces() const
 {
     std::vector<ContactForce> forces;
-    for_each_contact(network, [&](const ContactArrays& arrays, std::size_t k, bool with_wall) {
-        const Contact& contact = arrays.contact[k];
-        ContactForce force = contact_force(contact, arrays.terms[k], arrays.geometry[k], network.carried.impulse_step);
+    for_each_contact(network, [&](const TileContacts& contacts, std::size_t k, bool with_wall) {
+        const Contact contact = contacts.contact(k);
+        ContactForce force =
+            contact_force(contact, contacts.terms(k), contacts.geometry[k], network.carried.impulse_step);
         force.with_wall = with_wall;
         force.a = state.id[static_cast<std::size_t>(contact.a)];
         force.b = with_wall ? contact.b : state.id[static_cast<std::size_t>(contact.b)];

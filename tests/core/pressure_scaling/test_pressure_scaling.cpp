@@ -177,8 +177,8 @@ TEST_CASE("a correction changes velocities by M⁻¹ Gᵀ of the impulses and ke
     const Vec3 momentum = step.world.momentum();
     const auto wall_impulse = [&] {
         Vec3 sum = Vec3::Zero();
-        for_each_loaded(
-            step.world.network.contacts.walls, [&](const Contact& c, const ContactGeometry&) { sum += c.impulse; });
+        for (const TileContacts& tile : step.world.network.contacts.walls)
+            for (const std::size_t c : tile.indices()) sum += tile.impulse(c);
         return sum;
     };
     const Vec3 wall_before = wall_impulse();
@@ -193,14 +193,15 @@ TEST_CASE("a correction changes velocities by M⁻¹ Gᵀ of the impulses and ke
     CHECK((step.world.momentum() - momentum - (wall_impulse() - wall_before)).z() == Approx(0.0).margin(1e-12 * scale));
 
     double worst = 0.0;
-    for_each_contact(step.world.network, [&](const ContactArrays& arrays, std::size_t c, bool) {
-        const Contact& contact = arrays.contact[c];
+    for_each_contact(step.world.network, [&](const TileContacts& contacts, std::size_t c, bool) {
+        const Contact contact = contacts.contact(c);
         const double normal = contact.impulse.dot(contact.normal);
         CHECK(normal >= 0.0);
-        worst = std::max(worst, (contact.impulse - normal * contact.normal).norm() - arrays.terms[c].friction * normal);
-        if (!arrays.rolling.empty())
+        worst =
+            std::max(worst, (contact.impulse - normal * contact.normal).norm() - contacts.terms(c).friction * normal);
+        if (contacts.has_rolling())
             worst = std::max(
-                worst, (arrays.rolling[c].impulse.norm() - arrays.rolling[c].reach * normal) / standard_radius);
+                worst, (contacts.rolling_impulse(c).norm() - contacts.rolling(c).reach * normal) / standard_radius);
     });
     CHECK(worst < 1e-15 * step.world.mass());
     CHECK(energy_between(before, step.world.state) > 0.0);
@@ -216,12 +217,12 @@ TEST_CASE("a correction takes energy out and ends where it is least", "[pressure
     step.push_top(0.01);
     const auto potential = [&] {
         double sum = 0.0;
-        for_each_contact(step.world.network, [&](const ContactArrays& arrays, std::size_t c, bool) {
-            const Contact& contact = arrays.contact[c];
+        for_each_contact(step.world.network, [&](const TileContacts& contacts, std::size_t c, bool) {
+            const Contact contact = contacts.contact(c);
             sum += contact.target * contact.impulse.dot(contact.normal);
-            if (!arrays.wall.empty()) sum += arrays.wall[c].velocity.dot(contact.impulse);
-            if (!arrays.wall.empty() && !arrays.rolling.empty())
-                sum += arrays.wall[c].spin.dot(arrays.rolling[c].impulse);
+            if (contacts.has_moving_walls()) sum += contacts.wall(c).velocity.dot(contact.impulse);
+            if (contacts.has_moving_walls() && contacts.has_rolling())
+                sum += contacts.wall(c).spin.dot(contacts.rolling_impulse(c));
         });
         return sum;
     };
@@ -261,16 +262,16 @@ TEST_CASE("a solution is left as it is", "[pressure_scaling]")
     step.pistons.store(step.world.network, step.world.state);
     double largest = 0.0;
     std::vector<Vec3> impulses;
-    for_each_contact(step.world.network, [&](const ContactArrays& arrays, std::size_t c, bool) {
-        impulses.push_back(arrays.contact[c].impulse);
+    for_each_contact(step.world.network, [&](const TileContacts& contacts, std::size_t c, bool) {
+        impulses.push_back(contacts.impulse(c));
         largest = std::max(largest, impulses.back().norm());
     });
     step.scale();
     step.pistons.store(step.world.network, step.world.state);
     std::size_t next = 0;
     double change = 0.0;
-    for_each_contact(step.world.network, [&](const ContactArrays& arrays, std::size_t c, bool) {
-        change = std::max(change, (arrays.contact[c].impulse - impulses[next++]).norm());
+    for_each_contact(step.world.network, [&](const TileContacts& contacts, std::size_t c, bool) {
+        change = std::max(change, (contacts.impulse(c) - impulses[next++]).norm());
     });
     CHECK(change < 1e-7 * largest);
 }

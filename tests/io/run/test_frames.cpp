@@ -58,14 +58,11 @@ Simulation stack_of_two()
     state.time = 0.75;
     ContactNetwork& network = simulation.network;
     network.carried.impulse_step = simulation.model.time_step;
-    network.contacts.spheres.resize({0, 2}, false);
-    network.contacts.spheres.count = {2}; // the second without an impulse
-    network.contacts.spheres.contact[0] = {.a = 1, .b = 0, .impulse = Vec3(0.001, 0, 0.003)};
-    network.contacts.spheres.contact[1] = {.a = 1, .b = 0};
-    network.contacts.walls.resize({0, 1}, false);
-    network.contacts.walls.count = {1};
-    network.contacts.walls.contact[0] = {.a = 0, .b = 1, .impulse = Vec3(0, 0, 0.012)};
-    network.contacts.walls.geometry[0].gap = -0.125;
+    TileContacts& spheres = network.contacts.spheres.emplace_back();
+    spheres.set(spheres.append(), {.a = 1, .b = 0, .impulse = Vec3(0.001, 0, 0.003)}, {}, {});
+    spheres.set(spheres.append(), {.a = 1, .b = 0}, {}, {}); // without an impulse
+    TileContacts& walls = network.contacts.walls.emplace_back();
+    walls.set(walls.append(), {.a = 0, .b = 1, .impulse = Vec3(0, 0, 0.012)}, {}, {.gap = -0.125});
     return simulation;
 }
 

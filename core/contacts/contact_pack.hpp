@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace talus
+{
+
+/// Lanes of a pack: contacts that a wide register solves at once.
+inline constexpr int pack_size = 8;
+
+/// Eight contacts, no two of which share a sphere, so that their order does not matter: all that a sweep streams, lane
+/// beside lane, 112 B a contact. They are filled from lane 0 on; a lane that is not in use has a = b = −1, and zeros.
+struct alignas(64) ContactPack {
+    std::int32_t a[pack_size];          ///< sphere
+    std::int32_t b[pack_size];          ///< sphere or, in packs of wall contacts, wall
+    double normal[3][pack_size];        ///< n, unit, from b to a
+    double impulse[3][pack_size];       ///< λ [N s] on a
+    double target[pack_size];           ///< q_n [m/s]
+    double arm_scale[pack_size];        ///< s
+    double friction[pack_size];         ///< μ
+    double compliance[pack_size];       ///< Σ_n [1/kg]
+    double normal_mass[pack_size];      ///< 1 / (W + Σ_n) [kg]
+    double tangent_mass[pack_size];     ///< 1 / (W (1 + 5/2 s²)) [kg]
+    double inverse_mass_sum[pack_size]; ///< W [1/kg]
+};
+static_assert(sizeof(ContactPack) == 896);
+
+/// Their rolling rows.
+struct alignas(64) RollingPack {
+    double impulse[3][pack_size]; ///< angular impulse on a [N m s], at right angles to n
+    double reach[pack_size];      ///< μ_r R* [m]
+    double inertia[pack_size];    ///< 1 / (1/I_a + 1/I_b) [kg m²]
+};
+
+/// How their walls move, the mean over the step.
+struct alignas(64) WallPack {
+    double velocity[3][pack_size]; ///< [m/s]
+    double spin[3][pack_size];     ///< [rad/s]
+};
+
+/// The packs of one tile as a sweep sees them.
+struct PackSpan {
+    ContactPack* contact = nullptr;
+    RollingPack* rolling = nullptr; ///< null where the scene has none
+    WallPack* wall = nullptr;       ///< null where no wall moves
+    std::size_t count = 0;
+};
+
+} // namespace talus

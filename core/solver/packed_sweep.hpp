@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/solver/sweep_kernels.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+/// The sweep on packs, METHOD (6) to (8), written once for registers of 2, 4 and 8 numbers: `width` contacts at a time.
+///
+/// Each file that includes this is compiled for an instruction set of its own. Therefore nothing here may be an inline
+/// function that another file could share: all are templates of the width, which belongs to one file only, and nothing
+/// of Eigen or of the standard library is called.
+namespace talus::packed_sweep
+{
+
+constexpr double inverse_inertia = 2.5; ///< times m r²
+constexpr std::int32_t motion_size = 8; ///< numbers of a sphere's motion
+
+template <int width> struct Register {
+    typedef double Numbers __attribute__((vector_size(width * sizeof(double)), may_alias));
+};
+/// One number for each of `width` contacts.
+template <int width> using Numbers = typename Register<width>::Numbers;
+
+template <int width> [[gnu::always_inline]] inline Numbers<width> load(const double* from)
+{
+    Numbers<width> numbers;
+    __builtin_memcpy(&numbers, from, sizeof numbers);
+    return numbers;
+}
+
+template <int width> [[gnu::always_inline]] inline void store(double* to, const Numbers<width>& numbers)
+{
+    __builtin_memcpy(to, &numbers, sizeof numbers);
+}
+
+template <int width> struct Vector {
+    Numbers<width> x, y, z;
+
+    [[gnu::always_inline]] static Vector load(const double (&rows)[3][pack_size], int first)
+    {
+        return {packed_sweep::load<width>(rows[0] + first), packed_sweep::load<width>(rows[1] + first),
+            packed_sweep::load<width>(rows[2] + first)};
+    }
+    [[gnu::always_inline]] void store(double (&rows)[3][pack_size], int first) const
+    {
+        packed_sweep::store<width>(rows[0] + first, x);
+        packed_sweep::store<width>(rows[1] + first, y);
+        packed_sweep::store<width>(rows[2] + first, z);
+    }
+    [[gnu::always_inline]] Vector operator+(const Vector& o) const { return {x + o.x, y + o.y, z + o.z}; }
+    [[gnu::always_inline]] Vector operator-(const Vector& o) const { return {x - o.x, y - o.y, z - o.z}; }
+    [[gnu::always_inline]] Vector operator*(const Numbers<width>& f) const { return {f * x, f * y, f * z}; }
+    [[gnu::always_inline]] Numbers<width> dot(const Vector& o) const { return x * o.x + y * o.y + z * o.z; }
+    [[gnu::always_inline]] Vector cross(const Vector& o) const
+    {
+        return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
+    }
+};
+
+/// Two registers, of which `stride` numbers in turn change places.
+template <int width, int stride, int... i>
+[[gnu::always_inline]] inline void exchange(Numbers<width>& low, Numbers<width>& high, std::integer_sequence<int, i...>)
+{
+    const Numbers<width> a = low, b = high;
+    low = __builtin_shufflevector(a, b, (i & stride ? width + i - stride : i)...);
+    high = __builtin_shufflevector(a, b, (i & stride ? width + i : i + stride)...);
+}
+
+/// Rows become columns.
+template <int width, int stride = width / 2> [[gnu::always_inline]] inline void transpose(Numbers<width>* rows)
+{
+    for (int row = 0; row < width; ++row)
+        if (!(row & stride))
+            exchange<width, stride>(rows[row], rows[row + stride], std::make_integer_sequence<int, width>{});
+    if constexpr (stride > 1) transpose<width, stride / 2>(rows);
+}
+
+/// Of a lane that is not in use.
+template <int width> constexpr double no_motion[motion_size] = {0, 0, 0, 0, 0, 0, 0, 1};
+
+/// The motion of `width` spheres, number beside number. @tparam full no lane is empty
+template <int width, bool full> struct Spheres {
+    Numbers<width> number[motion_size];
+
+    [[gnu::always_inline]] void gather(const std::int32_t* sphere, const double* motion)
+    {
+        const double* from[width];
+        for (int lane = 0; lane < width; ++lane)
+            from[lane] =
+                full || sphere[lane] >= 0 ? motion + std::int64_t{motion_size} * sphere[lane] : no_motion<width>;
+        for (int block = 0; block < motion_size; block += width) {
+            for (int lane = 0; lane < width; ++lane) number[block + lane] = load<width>(from[lane] + block);
+            transpose<width>(number + block);
+        }
+    }
+    [[gnu::always_inline]] void scatter(const std::int32_t* sphere, double* motion)
+    {
+        for (int block = 0; block < motion_size; block += width) {
+            transpose<width>(number + block);
+            for (int lane = 0; lane < width; ++lane)
+                if (full || sphere[lane] >= 0)
+                    store<width>(motion + std::int64_t{motion_size} * sphere[lane] + block, number[block + lane]);
+        }
+    }
+    [[gnu::always_inline]] Vector<width> velocity() const { return {number[0], number[1], number[2]}; }
+    [[gnu::always_inline]] Numbers<width> inverse_mass() const { return number[3]; }
+    [[gnu::always_inline]] Vector<width> rim_velocity() const { return {number[4], number[5], number[6]}; }
+    [[gnu::always_inline]] Numbers<width> radius() const { return number[7]; }
+    [[gnu::always_inline]] void set_velocity(const Vector<width>& v)
+    {
+        number[0] = v.x;
+        number[1] = v.y;
+        number[2] = v.z;
+    }
+    [[gnu::always_inline]] void set_rim_velocity(const Vector<width>& a)
+    {
+        number[4] = a.x;
+        number[5] = a.y;
+        number[6] = a.z;
+    }
+};
+
+/// Sums of each of the eight lanes, so that they do not depend on the width.
+template <int width> struct Sums {
+    Numbers<width> change[pack_size / width] = {}, size[pack_size / width] = {};
+
+    [[gnu::always_inline]] SweepSums total() const
+    {
+        SweepSums sums;
+        for (int group = 0; group < pack_size / width; ++group)
+            for (int lane = 0; lane < width; ++lane) {
+                sums.change += change[group][lane];
+                sums.size += size[group][lane];
+            }
+        return sums;
+    }
+};
+
+/// Cuts vectors back to the disk of this radius.
+template <int width> [[gnu::always_inline]] inline void cut_to_disk(Vector<width>& vector, const Numbers<width>& radius)
+{
+    const Numbers<width> size_squared = vector.dot(vector);
+    const auto outside = size_squared > radius * radius;
+    bool any = false;
+    for (int lane = 0; lane < width; ++lane) any |= outside[lane] != 0;
+    if (!any) return;
+    Numbers<width> size;
+    for (int lane = 0; lane < width; ++lane) size[lane] = __builtin_sqrt(size_squared[lane]);
+    const Numbers<width> one = size_squared * 0.0 + 1.0;
+    vector = vector * (outside ? radius / size : one);
+}
+
+/// `width` contacts of a pack, from lane `first` on, and their spheres.
+template <int width, bool wall, class R, bool full> struct Contacts {
+    static constexpr bool spins = R::spin;
+
+    ContactPack& pack;
+    RollingPack* rolling;
+    const WallPack* walls;
+    double* motion;
+    int first;
+    Spheres<width, full> a, b;
+    Vector<width> normal;
+    Numbers<width> arm_scale;
+
+    [[gnu::always_inline]] Contacts(const PackSpan& packs, std::size_t p, double* spheres, int lane)
+        : pack(packs.contact[p]), rolling(R::rolling ? packs.rolling + p : nullptr),
+          walls(wall && R::moving_walls ? packs.wall + p : nullptr), motion(spheres), first(lane)
+    {
+        a.gather(pack.a + first, motion);
+        if constexpr (!wall) b.gather(pack.b + first, motion);
+        normal = Vector<width>::load(pack.normal, first);
+        arm_scale = load<width>(pack.arm_scale + first);
+    }
+
+    /// u = v_a − v_b + s n × (a_a + a_b), METHOD (3).
+    [[gnu::always_inline]] Vector<width> velocity() const
+    {
+        Vector<width> u = a.velocity();
+        if constexpr (!wall) u = u - b.velocity();
+        if constexpr (wall && R::moving_walls) u = u - Vector<width>::load(walls->velocity, first);
+        if constexpr (spins) {
+            Vector<width> rim = a.rim_velocity();
+            if constexpr (!wall) rim = rim + b.rim_velocity();
+            u = u + normal.cross(rim) * arm_scale;
+        }
+        return u;
+    }
+
+    /// v ← v + M⁻¹ Gᵀ p.
+    [[gnu::always_inline]] void apply(const Vector<width>& p)
+    {
+        a.set_velocity(a.velocity() + p * a.inverse_mass());
+        if constexpr (!wall) b.set_velocity(b.velocity() - p * b.inverse_mass());
+        if constexpr (spins) {
+            const Vector<width> turn = normal.cross(p) * (inverse_inertia * arm_scale);
+            a.set_rim_velocity(a.rim_velocity() - turn * a.inverse_mass());
+            if constexpr (!wall) b.set_rim_velocity(b.rim_velocity() - turn * b.inverse_mass());
+        }
+    }
+
+    /// Normal first, METHOD (6), then friction on the disk of the new normal impulse, (7).
+    [[gnu::always_inline]] Vector<width> solved(const Vector<width>& impulse, double relaxation) const
+    {
+        const Vector<width> u = velocity();
+        const Numbers<width> u_n = u.dot(normal), old_normal = impulse.dot(normal);
+        const Numbers<width> excess =
+            (u_n + load<width>(pack.compliance + first) * old_normal) - load<width>(pack.target + first);
+        const Numbers<width> wanted = old_normal - relaxation * (excess * load<width>(pack.normal_mass + first));
+        const Numbers<width> new_normal = wanted < 0.0 ? Numbers<width>{} : wanted;
+        if constexpr (!R::friction) return normal * new_normal;
+        const Numbers<width> tangent_mass = relaxation * load<width>(pack.tangent_mass + first);
+        Vector<width> tangent = (impulse - normal * old_normal) - (u - normal * u_n) * tangent_mass;
+        cut_to_disk<width>(tangent, load<width>(pack.friction + first) * new_normal);
+        return normal * new_normal + tangent;
+    }
+
+    /// The rolling rows, METHOD (8). @param impulse of the contact as it stands
+    [[gnu::always_inline]] Vector<width> solved_rolling(const Vector<width>& impulse, double relaxation) const
+    {
+        Vector<width> spin = a.rim_velocity() * (1.0 / a.radius());
+        if constexpr (!wall) spin = spin - b.rim_velocity() * (1.0 / b.radius());
+        if constexpr (wall && R::moving_walls) spin = spin - Vector<width>::load(walls->spin, first);
+        const Numbers<width> inertia = relaxation * load<width>(rolling->inertia + first);
+        Vector<width> torque =
+            Vector<width>::load(rolling->impulse, first) - (spin - normal * spin.dot(normal)) * inertia;
+        cut_to_disk<width>(torque, load<width>(rolling->reach + first) * impulse.dot(normal));
+        return torque;
+    }
+
+    /// ω ← ω + I⁻¹ τ.
+    [[gnu::always_inline]] void apply_rolling(const Vector<width>& torque)
+    {
+        a.set_rim_velocity(a.rim_velocity() + torque * (inverse_inertia * a.inverse_mass() / a.radius()));
+        if constexpr (!wall)
+            b.set_rim_velocity(b.rim_velocity() - torque * (inverse_inertia * b.inverse_mass() / b.radius()));
+    }
+
+    [[gnu::always_inline]] void put_back()
+    {
+        a.scatter(pack.a + first, motion);
+        if constexpr (!wall) b.scatter(pack.b + first, motion);
+    }
+
+    template <bool apply_change> [[gnu::always_inline]] void relax(double relaxation, Sums<width>& sums)
+    {
+        const int group = first / width;
+        const Numbers<width> weight = load<width>(pack.inverse_mass_sum + first);
+        const Vector<width> impulse = Vector<width>::load(pack.impulse, first);
+        const Vector<width> next = solved(impulse, relaxation), change = next - impulse;
+        sums.change[group] += weight * change.dot(change);
+        sums.size[group] += weight * next.dot(next);
+        if constexpr (apply_change) {
+            next.store(pack.impulse, first);
+            apply(change);
+        }
+        if constexpr (R::rolling) {
+            const Vector<width> turn = solved_rolling(apply_change ? next : impulse, relaxation);
+            const Vector<width> turn_change = turn - Vector<width>::load(rolling->impulse, first);
+            add_rolling(sums.change[group], turn_change);
+            add_rolling(sums.size[group], turn);
+            if constexpr (apply_change) {
+                turn.store(rolling->impulse, first);
+                apply_rolling(turn_change);
+            }
+        }
+        if constexpr (apply_change) put_back();
+    }
+
+    [[gnu::always_inline]] void warm_start(Sums<width>& sums)
+    {
+        const int group = first / width;
+        const Vector<width> impulse = Vector<width>::load(pack.impulse, first);
+        sums.size[group] += load<width>(pack.inverse_mass_sum + first) * impulse.dot(impulse);
+        apply(impulse);
+        if constexpr (R::rolling) {
+            const Vector<width> turn = Vector<width>::load(rolling->impulse, first);
+            add_rolling(sums.size[group], turn);
+            apply_rolling(turn);
+        }
+        put_back();
+    }
+
+private:
+    [[gnu::always_inline]] void add_rolling(Numbers<width>& sum, const Vector<width>& turn) const
+    {
+        const Numbers<width> inertia = load<width>(rolling->inertia + first);
+        const Numbers<width> part = turn.dot(turn) / inertia;
+        sum += inertia > 0.0 ? part : Numbers<width>{}; // 0 where a lane is empty
+    }
+};
+
+/// Calls visit(contacts) for all contacts of these packs, `width` at a time.
+template <int width, bool wall, class R, class Visit>
+[[gnu::always_inline]] inline void for_each_group(const PackSpan& packs, double* motion, Visit visit)
+{
+    for (std::size_t p = 0; p < packs.count; ++p)
+        for (int first = 0; first < pack_size; first += width) {
+            if (packs.contact[p].a[first + width - 1] >= 0)
+                visit(Contacts<width, wall, R, true>(packs, p, motion, first));
+            else
+                visit(Contacts<width, wall, R, false>(packs, p, motion, first));
+        }
+}
+
+template <int width, class R, bool apply_change>
+SweepSums relax(const PackSpan& spheres, const PackSpan& walls, double* motion, double relaxation)
+{
+    Sums<width> sums;
+    const auto visit = [&](auto contacts) __attribute__((always_inline))
+    {
+        contacts.template relax<apply_change>(relaxation, sums);
+    };
+    for_each_group<width, false, R>(spheres, motion, visit);
+    for_each_group<width, true, R>(walls, motion, visit);
+    return sums.total();
+}
+
+template <int width, class R> SweepSums measure(const PackSpan& spheres, const PackSpan& walls, double* motion)
+{
+    return relax<width, R, false>(spheres, walls, motion, 1.0);
+}
+
+template <int width, class R> SweepSums warm_start(const PackSpan& spheres, const PackSpan& walls, double* motion)
+{
+    Sums<width> sums;
+    const auto visit = [&](auto contacts) __attribute__((always_inline))
+    {
+        contacts.warm_start(sums);
+    };
+    for_each_group<width, false, R>(spheres, motion, visit);
+    for_each_group<width, true, R>(walls, motion, visit);
+    return sums.total();
+}
+
+template <int width, class R> constexpr void add_kernel(SweepKernels& kernels)
+{
+    kernels.of_rows[R::index] = {relax<width, R, true>, measure<width, R>, warm_start<width, R>};
+}
+
+template <int width> constexpr SweepKernels kernels(const char* instructions)
+{
+    SweepKernels all;
+    all.instructions = instructions;
+    add_kernel<width, Rows<false, false, false, false>>(all);
+    add_kernel<width, Rows<false, false, false, true>>(all);
+    add_kernel<width, Rows<true, false, false, false>>(all);
+    add_kernel<width, Rows<true, false, false, true>>(all);
+    add_kernel<width, Rows<true, true, false, false>>(all);
+    add_kernel<width, Rows<true, true, false, true>>(all);
+    add_kernel<width, Rows<true, true, true, false>>(all);
+    add_kernel<width, Rows<true, true, true, true>>(all);
+    return all;
+}
+
+} // namespace talus::packed_sweep

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/sweep_kernels.hpp"
+
+namespace talus
+{
+
+std::vector<const SweepKernels*> usable_sweep_kernels()
+{
+    std::vector<const SweepKernels*> usable;
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) usable.push_back(&avx512_kernels);
+    if (__builtin_cpu_supports("avx2")) usable.push_back(&avx2_kernels);
+#endif
+    usable.push_back(&plain_kernels);
+    return usable;
+}
+
+const SweepKernels& sweep_kernels()
+{
+    static const SweepKernels& fastest = *usable_sweep_kernels().front();
+    return fastest;
+}
+
+} // namespace talus

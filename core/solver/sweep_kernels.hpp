@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/sweep_sums.hpp"
+#include "core/contacts/contact_pack.hpp"
+
+#include <array>
+#include <vector>
+
+namespace talus
+{
+
+/// What the sweep of a scene contains; chosen once for a solve, so that what a scene does not need is not there.
+template <bool with_friction, bool with_spin, bool with_rolling, bool with_moving_walls> struct Rows {
+    static constexpr bool friction = with_friction;
+    static constexpr bool spin = with_spin;
+    static constexpr bool rolling = with_rolling;
+    static constexpr bool moving_walls = with_moving_walls;
+    /// Its place in a table of variants.
+    static constexpr std::size_t index = 2 * (with_friction + with_spin + with_rolling) + with_moving_walls;
+};
+inline constexpr std::size_t row_variants = 8;
+
+/// The passes over the contacts of one tile, those between spheres first, for one instruction set and one `Rows`.
+/// Whichever the set, the bits of the results are the same.
+/// @param motion of all spheres, as 8 numbers each: v, 1/m, a, r
+struct SweepKernel {
+    using Sweep = SweepSums (*)(const PackSpan& spheres, const PackSpan& walls, double* motion, double relaxation);
+    using Pass = SweepSums (*)(const PackSpan& spheres, const PackSpan& walls, double* motion);
+
+    Sweep relax = nullptr;     ///< every contact once
+    Pass measure = nullptr;    ///< what an unrelaxed sweep would change if all contacts were relaxed at once
+    Pass warm_start = nullptr; ///< v ← v + M⁻¹ Gᵀ λ; the sum of sizes is that of these λ
+};
+
+/// The kernels for one instruction set, by Rows::index.
+struct SweepKernels {
+    const char* instructions = "";
+    std::array<SweepKernel, row_variants> of_rows;
+};
+
+extern const SweepKernels plain_kernels, avx2_kernels, avx512_kernels;
+
+/// Those that this processor can run, the fastest first.
+std::vector<const SweepKernels*> usable_sweep_kernels();
+
+/// The fastest.
+const SweepKernels& sweep_kernels();
+
+} // namespace talus

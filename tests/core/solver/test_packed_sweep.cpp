@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/gauss_seidel.hpp"
+#include "core/solver/sweep_kernels.hpp"
+#include "core/solver/whole_contact.hpp"
+#include "tests/support/contacts.hpp"
+#include "tests/support/world.hpp"
+
+#include <cstring>
+#include <set>
+
+namespace talus::test
+{
+namespace
+{
+
+/// Many spheres of three sizes that have just fallen into a box, in several tiles; its walls may turn.
+World crowd(const ContactLaw& law, bool spin, bool walls_move)
+{
+    World world = make_world(law, production_settings(Stabilisation::matched), 4e-4);
+    world.model.physics.spin = world.model.physics.spin && spin;
+    const double edge = 14 * standard_radius;
+    WallMotion motion;
+    if (walls_move) motion.push_back(Turning{{}, Vec3(0.5 * edge, 0.5 * edge, 0), Vec3(0.36, 0.48, 0.8), 0.8});
+    world.add_wall(box_panels({Vec3::Zero(), Vec3(edge, edge, 8 * edge)}, {"z+"}), motion);
+    Random random(5);
+    for (int k = 0; k < 7 * 7 * 6; ++k) {
+        const Vec3 place(k % 7 + 0.5, k / 7 % 7 + 0.5, k / 49 + 0.5);
+        const double radius = standard_radius * (0.6 + 0.4 * uniform(random));
+        const double x = uniform(random), y = uniform(random);
+        world.add_sphere(2 * standard_radius * place, Vec3(x - 0.5, y - 0.5, -uniform(random)),
+            spin ? Vec3(50 * y, 50 * x, 30) : Vec3::Zero().eval(), radius);
+    }
+    world.step(120);
+    return world;
+}
+
+/// What a kernel makes of the next step's problem, to the bit.
+struct Result {
+    std::vector<double> numbers;
+
+    void add(double number) { numbers.push_back(number); }
+    void add(const SweepSums& sums)
+    {
+        add(sums.change);
+        add(sums.size);
+    }
+    void add(const Vec3& vector)
+    {
+        for (int d = 0; d < 3; ++d) add(vector[d]);
+    }
+    bool operator==(const Result& other) const
+    {
+        return numbers.size() == other.numbers.size() &&
+               std::memcmp(numbers.data(), other.numbers.data(), numbers.size() * sizeof(double)) == 0;
+    }
+};
+
+Result swept_by(const SweepKernels& kernels, World world)
+{
+    const std::size_t variant = with_rows(world.model.physics, [](auto rows) { return decltype(rows)::index; });
+    const SweepKernel& kernel = kernels.of_rows[variant];
+    auto* motion = reinterpret_cast<double*>(world.state.motion.data());
+    auto& contacts = world.network.contacts;
+    Result result;
+    const auto pass = [&](auto&& of_tile) {
+        for (std::size_t tile = 0; tile < contacts.spheres.size(); ++tile)
+            result.add(of_tile(contacts.spheres[tile].span(), contacts.walls[tile].span()));
+    };
+    pass([&](const PackSpan& spheres, const PackSpan& walls) { return kernel.warm_start(spheres, walls, motion); });
+    for (const double relaxation : {1.0, 1.3, 1.0})
+        pass([&](const PackSpan& spheres, const PackSpan& walls) {
+            return kernel.relax(spheres, walls, motion, relaxation);
+        });
+    pass([&](const PackSpan& spheres, const PackSpan& walls) { return kernel.measure(spheres, walls, motion); });
+    for_each_contact(world.network, [&](const TileContacts& tile, std::size_t k, bool) {
+        result.add(tile.impulse(k));
+        if (tile.has_rolling()) result.add(tile.rolling_impulse(k));
+    });
+    for (const Motion& m : world.state.motion) {
+        result.add(m.velocity);
+        result.add(m.rim_velocity);
+    }
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("all instruction sets give the same bits, whatever a scene models", "[packed_sweep]")
+{
+    const auto usable = usable_sweep_kernels();
+    REQUIRE(usable.back() == &plain_kernels);
+    const auto [law, spin] = GENERATE(std::pair(ContactLaw{}, false), std::pair(ContactLaw{.friction = 0.4}, false),
+        std::pair(ContactLaw{.friction = 0.4, .restitution = 0.3}, true),
+        std::pair(ContactLaw{.friction = 0.6, .rolling_friction = 0.1}, true));
+    const bool walls_move = GENERATE(false, true);
+    World world = crowd(law, spin, walls_move);
+    world.update_candidates();
+    assemble_contacts(world.network, world.state, world.model, {world.model.time_step}, world.placed_walls());
+    const Result plain = swept_by(plain_kernels, world);
+    REQUIRE(plain.numbers.size() > 2000);
+    for (const SweepKernels* kernels : usable) {
+        CAPTURE(kernels->instructions);
+        CHECK(swept_by(*kernels, world) == plain);
+    }
+}
+
+TEST_CASE("no two contacts of a pack share a sphere, and packs are nearly full", "[packed_sweep]")
+{
+    World world = crowd({.friction = 0.4}, true, false);
+    world.step(1);
+    std::size_t contacts = 0, packs = 0;
+    std::set<std::pair<std::int32_t, std::int32_t>> pairs;
+    for (const TileContacts& tile : world.network.contacts.spheres) {
+        packs += tile.packs();
+        std::map<std::size_t, std::set<std::int32_t>> spheres;
+        for (const std::size_t k : tile.indices()) {
+            ++contacts;
+            CHECK(spheres[k / pack_size].insert(tile.a(k)).second);
+            CHECK(spheres[k / pack_size].insert(tile.b(k)).second);
+            CHECK(pairs.insert({tile.a(k), tile.b(k)}).second);
+        }
+    }
+    REQUIRE(contacts > 400);
+    CHECK(static_cast<double>(contacts) > 0.7 * pack_size * static_cast<double>(packs));
+}
+
+TEST_CASE("contacts of one sphere are in packs of their own, more than a window of them", "[packed_sweep]")
+{
+    TileContacts contacts;
+    contacts.clear(false, false);
+    PackFiller filler;
+    filler.begin(contacts, 300);
+    constexpr std::int32_t many = 150;
+    for (std::int32_t b = 1; b <= many; ++b) {
+        const std::size_t star = filler.place(0, b); // all share sphere 0
+        contacts.set(star, {.a = 0, .b = b}, {}, {});
+        const std::size_t other = filler.place(b, 100 + b); // shares b with the one before
+        contacts.set(other, {.a = b, .b = 100 + b}, {}, {});
+        CHECK(star / pack_size != other / pack_size);
+    }
+    filler.end();
+    CHECK(contacts.count() == 2 * many);
+    CHECK(contacts.packs() >= many);
+    for (std::size_t p = 0; p < contacts.packs(); ++p) {
+        std::multiset<std::int32_t> spheres;
+        for (const std::size_t k : contacts.indices())
+            if (k / pack_size == p) {
+                spheres.insert(contacts.a(k));
+                spheres.insert(contacts.b(k));
+            }
+        for (const std::int32_t sphere : spheres) CHECK(spheres.count(sphere) == 1);
+    }
+}
+
+} // namespace talus::test
