@@ -119,12 +119,13 @@ BuiltScene build_scene(const scene::Scene& scene)
     for (Pour& pour : simulation.pours) pour.random.seed(random());
     simulation.state.pistons.resize(model.pistons.size());
 
-    // The spheres decide the step, and with it what the scene leaves open of the solver.
-    const StepChoice step = choose_step(scene, simulation, accuracy.setting.step_factor);
-    model.time_step = step.step;
-    model.speed_limit = step.speed_limit;
+    // The spheres decide what the scene leaves open of the solver and the step.
     const SolverChoice choice = complete_solver(solver, scene, simulation);
     model.solver = choice.settings;
+    const StepChoice step = choose_step(scene, simulation, accuracy.setting.step_factor * choice.step_factor);
+    model.time_step = step.step;
+    model.speed_limit = step.speed_limit;
+    model.solver.push_out_speed = push_out_speed(scene.solver, model);
 
     BuildReport report{accuracy.explanation, choice.explanation, explain_step(step, model.min_diameter),
         explain_model(model), forecast_overlap(simulation), warnings_of(scene, step, model)};

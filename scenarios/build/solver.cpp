@@ -20,6 +20,7 @@ constexpr double column = 150.0;     ///< mean diameters; with `matched` so tall
 constexpr double heavy = 10.0;       ///< times the lightest sphere
 constexpr double very_heavy = 500.0; ///< a sphere, times the lightest: on eight of its diameters or more it may hop
 constexpr double crushing = 5e4;     ///< 37 diameters; one of 50 pressed a grain through the floor with `matched`
+constexpr double crushing_step_factor = 0.5; ///< with all of the step the grains below it overlapped by 7 % d
 constexpr double fine = 1e-3;
 constexpr double packed_share = 0.6; ///< of the room that a bed takes
 
@@ -99,21 +100,13 @@ template <class... Numbers> std::string text(const char* format, Numbers... numb
     return buffer;
 }
 
-std::string explain(const SolverSettings& solver, double depth, double ratio)
+std::string explain(const SolverSettings& solver, double step_factor, double depth, double ratio)
 {
     const std::string found = ratio >= very_heavy ? text("the heaviest sphere is %.3g times the lightest", ratio)
                                                   : text("the spheres stand %.3g diameters high", depth);
-    return text("stabilisation %s and tolerance %g, for %s",
-        solver.stabilisation == Stabilisation::projected ? "projected" : "matched", solver.tolerance, found.c_str());
-}
-
-double push_out_speed(const scene::NumberOrName& given, const Model& model)
-{
-    if (given.name != "auto") return given.number;
-    const double gravity = model.gravity.norm();
-    // Without gravity what it is with gravity at the automatic step h = 0.008 √(d/gravity).
-    return gravity > 0.0 ? 0.1 * std::sqrt(model.mean_diameter * gravity)
-                         : 0.0008 * model.mean_diameter / model.time_step;
+    return text("stabilisation %s%s and tolerance %g, for %s",
+        solver.stabilisation == Stabilisation::projected ? "projected" : "matched",
+        step_factor < 1.0 ? ", half the step" : "", solver.tolerance, found.c_str());
 }
 
 double tolerance(const scene::NumberOrName& value, double automatic)
@@ -127,6 +120,15 @@ double tolerance(const scene::NumberOrName& value, double automatic)
 }
 
 } // namespace
+
+double push_out_speed(const scene::SolverTable& table, const Model& model)
+{
+    if (table.push_out_speed.name != "auto") return table.push_out_speed.number;
+    const double gravity = model.gravity.norm();
+    // Without gravity what it is with gravity at the automatic step h = 0.008 √(d/gravity).
+    return gravity > 0.0 ? 0.1 * std::sqrt(model.mean_diameter * gravity)
+                         : 0.0008 * model.mean_diameter / model.time_step;
+}
 
 Stabilisation stabilisation_of(const scene::SolverTable& table)
 {
@@ -163,25 +165,26 @@ SolverChoice complete_solver(SolverSettings solver, const scene::Scene& scene, c
     const bool scaled = pressure_is_scaled(table.pressure_scaling, all, depth, model);
     const double ratio = model.gravity.isZero() ? 1.0 : all.heaviest / all.lightest;
     std::string explanation;
+    double step_factor = 1.0;
     if (scene.accuracy.empty()) { // else measured settings decide
         if (table.stabilisation == "auto" && scaled && (depth >= column || ratio >= crushing) &&
             may_be_rigid(simulation)) {
             solver.stabilisation = Stabilisation::projected;
             if (table.min_sweeps == 0)
                 solver.min_sweeps = std::min(usual_sweeps(solver.stabilisation), solver.max_sweeps);
+            if (ratio >= crushing && scene.time.step.name == "auto") step_factor = crushing_step_factor;
         }
         const bool gas = model.gravity.isZero() && model.physics.restitution;
         if (table.tolerance.name == "auto" && (ratio >= very_heavy || gas)) solver.tolerance = fine;
-        if (depth >= column || ratio >= very_heavy) explanation = explain(solver, depth, ratio);
+        if (depth >= column || ratio >= very_heavy) explanation = explain(solver, step_factor, depth, ratio);
         if (gas)
             explanation =
                 text("tolerance %g, for impacts without gravity, whose energy nothing stills", solver.tolerance);
     }
-    solver.push_out_speed = push_out_speed(table.push_out_speed, model);
     solver.pressure_scaling = scaled && solver.stabilisation == Stabilisation::projected;
     if (solver.pressure_scaling && depth >= very_deep && table.min_sweeps == 0)
         solver.min_sweeps = std::clamp(sweeps_in_very_deep, solver.min_sweeps, solver.max_sweeps);
-    return {solver, explanation};
+    return {solver, step_factor, explanation};
 }
 
 } // namespace talus

@@ -19,7 +19,8 @@ struct RunSetting {
 /// The settings, and why they are not the usual ones.
 struct SolverChoice {
     SolverSettings settings;
-    std::string explanation; ///< one line; empty where they are
+    double step_factor = 1.0; ///< on the automatic step
+    std::string explanation;  ///< one line; empty where they are
 };
 
 /// The law that a scene names; where it leaves it open, the usual one.
@@ -31,17 +32,20 @@ Stabilisation stabilisation_of(const scene::SolverTable& table);
 /// contacts are too soft for it to matter
 SolverSettings build_solver(const scene::SolverTable& table, const RunSetting& setting);
 
-/// These settings with what the scene leaves to the step and to the spheres.
+/// These settings with what the scene leaves to the spheres.
 ///
 /// Where spheres stand 150 mean diameters high, or one has 50 000 times the mass of another, contacts are rigid if
-/// nothing flows or moves as it is told. Where one has 500 times the mass of another, or there is restitution
-/// and no gravity, the tolerance is 1e-3. Not so where the scene says what it wants, or asks for an accuracy.
+/// nothing flows or moves as it is told; in the second case with half the step. Where one has 500 times the mass of
+/// another, or there is restitution and no gravity, the tolerance is 1e-3. Not so where the scene says what it wants,
+/// or asks for an accuracy.
 ///
-/// The cap on the speed with which overlap is undone follows from gravity, or else from the step. Pressure is scaled
-/// with `projected` in a bed of forty grains or more, or where something rests on grains of a tenth of its mass or
-/// less; where no axis is periodic. Beds of a hundred grains or more then take at least six sweeps a step, unless the
-/// scene says how many.
+/// Pressure is scaled with `projected` in a bed of forty grains or more, or where something rests on grains of a tenth
+/// of its mass or less; where no axis is periodic. Beds of a hundred grains or more then take at least six sweeps a
+/// step, unless the scene says how many.
 /// @param simulation its spheres are there, and its model has all but the solver
 SolverChoice complete_solver(SolverSettings solver, const scene::Scene& scene, const Simulation& simulation);
+
+/// The cap on the speed with which overlap is undone: the scene's, or what follows from gravity, or else from the step.
+double push_out_speed(const scene::SolverTable& table, const Model& model);
 
 } // namespace talus
