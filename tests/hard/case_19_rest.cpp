@@ -86,7 +86,7 @@ TEST_CASE("19 rest of a pile of 1000", "[hard]")
     for (const std::string law : {"matched", "projected"}) {
         auto s = open_scene("pile_plain",
             {"pour.source.count=1000", "wall.plate.radius=0.1", "wall.lip.radius=0.1", "solver.stabilisation=" + law});
-        run_until(s, 4.0);
+        run_until(s, 6.0); // the last bead rolls into its place between 4 and 6 s
         const Drift found = drift(s);
         hard.below(law + ": drift of the centre of mass [d]", found.center, 1e-4);
         hard.below(law + ": its way down, loose beads included [d]", std::abs(found.height), 1e-4);

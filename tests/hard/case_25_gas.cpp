@@ -75,8 +75,8 @@ Simulation gas(double solid_fraction, double restitution)
 std::size_t collisions(const Simulation& simulation)
 {
     std::size_t sum = 0;
-    for_each_contact(simulation.network, [&](const ContactArrays& arrays, std::size_t k, bool with_wall) {
-        sum += !with_wall && !arrays.contact[k].impulse.isZero(0.0);
+    for_each_contact(simulation.network, [&](const TileContacts& contacts, std::size_t k, bool with_wall) {
+        sum += !with_wall && !contacts.impulse(k).isZero(0.0);
     });
     return sum;
 }
