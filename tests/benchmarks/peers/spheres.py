@@ -10,10 +10,10 @@ SMALLEST, LARGEST = 0.0095, 0.0105  # m, diameters
 SEGMENTS = 48  # of a round wall as STL
 
 
-def jittered_lattice(count, radius, base):
+def jittered_lattice(count, radius, base, seed):
     """Centres and radii of spheres in an upright tube: a cubic lattice, filled from below, each moved at random within
-    the room that the spacing leaves, so that nothing overlaps. The same for the same count, always."""
-    random = numpy.random.default_rng(1)
+    the room that the spacing leaves, so that nothing overlaps."""
+    random = numpy.random.default_rng(seed)
     spacing = 1.1 * LARGEST
     half = math.ceil(radius / spacing)
     line = spacing * numpy.arange(-half, half + 1)
