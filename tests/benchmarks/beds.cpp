@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmarks/beds.hpp"
+#include "tests/benchmarks/measures.hpp"
 
 #include "io/run/checkpoint.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/text/input_error.hpp"
 #include "scenarios/build/build_scene.hpp"
+
+#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -171,6 +174,7 @@ struct Laid {
 Laid simulate(const Bed& bed)
 {
     std::fprintf(stderr, "making the bed %s\n", bed.name.c_str());
+    omp_set_num_threads(two_are_free() ? 2 : 1);
     auto simulation = build_scene(bed.beginning).simulation;
     while (!has_reached(simulation, bed.until)) advance(simulation);
     Laid laid;
@@ -296,6 +300,7 @@ Simulation open_bed(const std::string& name, const Change& change)
 {
     const Bed bed = find_bed(name);
     auto scene = going_on(bed, lay(bed));
+    omp_set_num_threads(1);
     if (change) change(scene);
     auto simulation = build_scene(scene).simulation;
     const double h = simulation.model.time_step;

@@ -4,9 +4,9 @@
 
     tests/benchmarks/peers/run.py --talus build/talus --folder build/benchmarks/peers --json peers.json
 
-peers.md describes the set-ups. A code that is not installed is skipped, with a word; there has to be none but Talus. All
-run on one thread. The runs of a set-up are repeated in turn, code after code, each time from another lattice, so that a
-load of the machine that comes and goes falls on all.
+peers.md describes the set-ups. A code that is not installed is skipped, with a word; there has to be none but Talus.
+All run on one thread. The runs of a set-up are repeated in turn, code after code, each time from another lattice, so
+that a load of the machine that comes and goes falls on all.
 
 Exit codes: 0 done; 2 the call is wrong; 5 a code failed.
 """
