@@ -209,6 +209,13 @@ Laid lay(const Bed& bed)
     return laid;
 }
 
+/// The step with which it goes on: one in which spheres are put into the order of a curve, so that copies are, too.
+std::int64_t first_step(const Bed& bed, double step)
+{
+    constexpr double renumbering_interval = 1000.0;
+    return std::llround(renumbering_interval * std::ceil(bed.until / step / renumbering_interval));
+}
+
 /// The scene as it goes on from the bed.
 scene::Scene going_on(const Bed& bed, const Laid& laid)
 {
@@ -223,7 +230,7 @@ scene::Scene going_on(const Bed& bed, const Laid& laid)
     scene.fill[0].spheres = repeated(laid.spheres, length, bed.copies);
     // What has been poured is there; the rest follows from now on.
     for (scene::PourTable& pour : scene.pour) {
-        pour.start = bed.until;
+        pour.start = static_cast<double>(first_step(bed, laid.step)) * laid.step;
         pour.count = std::max<std::int64_t>(1, pour.count - static_cast<std::int64_t>(laid.spheres.positions.size()));
     }
     return scene;
@@ -304,7 +311,7 @@ Simulation open_bed(const std::string& name, const Change& change)
     if (change) change(scene);
     auto simulation = build_scene(scene).simulation;
     const double h = simulation.model.time_step;
-    simulation.state.steps = std::llround(bed.until / h);
+    simulation.state.steps = first_step(bed, h);
     simulation.state.time = static_cast<double>(simulation.state.steps) * h;
     for (int k = 0; k < steps_to_find_forces; ++k) advance(simulation);
     return simulation;

@@ -37,10 +37,11 @@ would explain it (Karp and Flatt 1990).
 """
 
 
-def table(header, rows):
-    """Markdown; columns but the first are numbers."""
-    lines = ["| " + " | ".join(header) + " |", "| --- |" + " ---: |" * (len(header) - 1)]
-    return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in rows)]) + "\n"
+def table(header, rows, texts=1):
+    """Markdown; after so many columns of text come numbers."""
+    lines = ["| " + " | ".join(header) + " |", "|" + " --- |" * texts + " ---: |" * (len(header) - texts)]
+    lines += ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join(lines).replace("|  |", "| |") + "\n"
 
 
 def number(value, digits=3):
@@ -66,8 +67,7 @@ def origin(part):
 def bar_table(store, triad):
     verdict = {True: "holds", False: "**no**", None: "–"}
     rows = [(str(bar.number), bar.what, bar.asked, bar.measured, verdict[bar.holds]) for bar in bars(store, triad)]
-    lines = ["| bar | what | asked | measured | |", "| --- | --- | --- | --- | --- |"]
-    return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in rows)]) + "\n"
+    return table(("bar", "what", "asked", "measured", ""), rows, texts=5)
 
 
 def sweep_table(figures, triad):
@@ -81,8 +81,8 @@ def sweep_table(figures, triad):
             what += ", moving walls"
         rows.append((bed, what, COPIED.get(bed, ""), number(value["spheres"]), number(value["contacts"]), number(rate),
                      number(two), number(value["bytes"]), number(flow), f"{flow / triad:.0%}"))
-    return table(("bed", "models", "", "spheres", "contacts", "million updates/s", "two threads", "bytes", "GB/s",
-                  "of triad"), rows)
+    return table(("bed", "models", "copies", "spheres", "contacts", "million updates/s", "two threads", "bytes", "GB/s",
+                  "of triad"), rows, texts=3)
 
 
 def step_table(figures):
@@ -135,7 +135,9 @@ def peer_tables(part):
     for setup in dict.fromkeys(row["setup"] for row in part["rows"]):
         rows = sorted((row for row in part["rows"] if row["setup"] == setup),
                       key=lambda row: ("Talus", "LAMMPS", "LIGGGHTS").index(row["code"]))
-        lines += [f"### {setup.replace('_', ' of ')}", "", f"{rows[0]['runs']} runs each.", ""]
+        runs = rows[0]["runs"]
+        how = f"{runs} runs each, the median; of the flow the mean." if runs > 1 else "One run each."
+        lines += [f"### {setup.replace('_', ' of ').capitalize()}", "", how, ""]
         if setup.startswith("silo"):
             header = ("code", "setting", "settling, CPU s", "discharging, CPU s", "flow", "mean overlap before opening",
                       "worst", "mean while flowing", "worst")
@@ -146,7 +148,7 @@ def peer_tables(part):
             header = ("code", "setting", "CPU s", "angle [°]", "over the lip", "mean overlap", "worst")
             cells = [(row["code"], row["setting"], number(row["flowing_cpu"]), f"{row['angle']:.1f}",
                       number(row["lost"]), f"{row['rest_mean']:.3%}", f"{row['rest_worst']:.2%}") for row in rows]
-        lines.append(table(header, cells))
+        lines.append(table(header, cells, texts=2))
     return "\n".join(lines)
 
 
