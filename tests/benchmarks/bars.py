@@ -79,7 +79,7 @@ def of_sweeps(steps, figures, triad):
                   million["Mupdates_s"] >= 60.0 and share >= 0.5)
     else:
         yield missing(2, what, "≥ 60 million a second, ≥ 50 % of triad", "not measured (`tests/run benchmarks large`)")
-    bare, full = rate("rest_32k/frictionless"), rate("rest_32k/as_is")
+    bare, full = rate("smooth_32k/as_is"), rate("rest_32k/as_is")
     if bare and full:
         yield Bar(2, "sweeps without friction against those with it, bed of 32 000", "≥ 1.5 ×", f"{bare / full:.2f} ×",
                   bare >= 1.5 * full)

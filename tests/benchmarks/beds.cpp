@@ -248,6 +248,11 @@ Bed find_bed(const std::string& name)
     const auto rest = [](const char* own, std::int64_t count, const Sizes& sizes, double across) {
         return Bed{own, trough(count, sizes, across, infinity), sizes.max > narrow.max ? 1.3 : 0.7};
     };
+    const auto smooth = [&] {
+        Bed bed = rest("smooth_4k", 4000, narrow, 20);
+        bed.beginning.contact[0].friction = 0.0;
+        return bed;
+    };
     const auto flow = [](const char* own, std::int64_t count, double across) {
         return Bed{own, trough(count, narrow, across, 0.5), 0.7};
     };
@@ -264,6 +269,8 @@ Bed find_bed(const std::string& name)
         {"wide_32k", [&] { return copies_of(rest("wide_4k", 4000, wide, 20), 8); }},
         {"wide_250k", [&] { return copies_of(rest("wide_4k", 4000, wide, 20), 64); }},
         {"wide_1M", [&] { return copies_of(rest("wide_4k", 4000, wide, 20), 256); }},
+        {"smooth_4k", smooth},
+        {"smooth_32k", [&] { return copies_of(smooth(), 8); }},
         {"flow_4k", [&] { return flow("flow_4k", 4000, 20); }},
         {"flow_32k", [&] { return flow("flow_32k", 32000, 40); }},
         {"flow_250k", [&] { return copies_of(flow("flow_32k", 32000, 40), 8); }},

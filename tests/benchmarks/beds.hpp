@@ -29,8 +29,8 @@ struct Bed {
 /// What a benchmark changes in the scene of a bed.
 using Change = std::function<void(scene::Scene&)>;
 
-/// The bed of this name: rest_, flow_ or drum_ with the count 4k, 32k, 250k or 1M; wide_, at rest, with sizes of 1 to
-/// 3; w3_5000 and w3_20000; or a shipped scene.
+/// The bed of this name: rest_, flow_, drum_ or wide_, which is at rest with sizes of 1 to 3, with the count 4k, 32k,
+/// 250k or 1M; smooth_4k and smooth_32k, at rest without friction; w3_5000 and w3_20000; or a shipped scene.
 Bed find_bed(const std::string& name);
 
 /// The bed as it goes on, after as many steps as its contacts need to find their forces.

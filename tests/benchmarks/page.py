@@ -5,9 +5,10 @@ import statistics
 from bars import bars
 
 PHASES = ("search", "assembly", "warm_start", "sweeps", "positions", "report")
-COPIED = {"rest_250k": "8 copies of rest_32k", "flow_250k": "8 copies of flow_32k", "drum_250k": "8 copies of drum_32k",
-          "wide_32k": "8 copies of wide_4k", "wide_250k": "64 copies of wide_4k", "rest_1M": "32 copies of rest_32k",
-          "flow_1M": "32 copies of flow_32k", "drum_1M": "32 copies of drum_32k", "wide_1M": "256 copies of wide_4k"}
+COPIED = {f"{kind}_{size}": f"{count} of {kind}_32k" for kind in ("rest", "flow", "drum")
+          for size, count in (("250k", 8), ("1M", 32))}
+COPIED |= {f"wide_{size}": f"{count} of wide_4k" for size, count in (("32k", 8), ("250k", 64), ("1M", 256))}
+COPIED["smooth_32k"] = "8 of smooth_4k"
 
 HEAD = """# Benchmarks
 
@@ -20,9 +21,9 @@ with each other: others use the machine too, and the triad says what it gave at 
 
 BEDS = """A bed is simulated once and kept, then goes on for 30 steps before anything is measured. `rest`, `flow` and
 `wide` lie in a trough 40 (4k: 20) spheres wide and half as long, periodic along its length, 35 (4k: 17) deep: at rest;
-flowing out through a slot; at rest with diameters of 6 to 18 mm. All others are of 10 mm ± 5 %. `drum` turns half full.
-Where it says *copies*, they lie side by side along the periodic axis. `silo`, `hopper`, `pile`, `drum`, `packing`
-without a size are the shipped scenes at 2, 1.6, 3, 2.5 and 1 s.
+flowing out through a slot; at rest with diameters of 6 to 18 mm. `smooth` is `rest` without friction. All others are of
+10 mm ± 5 %. `drum` turns half full. Where it says *copies*, they lie side by side along the periodic axis. `silo`,
+`hopper`, `pile`, `drum`, `packing` without a size are the shipped scenes at 2, 1.6, 3, 2.5 and 1 s.
 """
 
 SWEEPS = """Ten sweeps on the contacts of one step, after the warm start, each time from the same impulses and
@@ -76,7 +77,9 @@ def sweep_table(figures, triad):
         bed, _, variant = name.partition("/")
         rate, two = value["Mupdates_s"], value.get("Mupdates_s_two_threads")
         flow = 1e-3 * rate * value["bytes"]
-        what = {"as_is": "friction"}.get(variant, variant.replace("_", " "))
+        what = "friction" if variant == "as_is" else variant.replace("_", " ")
+        if bed.startswith("smooth"):
+            what = "no friction"
         if bed.startswith("drum"):
             what += ", moving walls"
         rows.append((bed, what, COPIED.get(bed, ""), number(value["spheres"]), number(value["contacts"]), number(rate),
