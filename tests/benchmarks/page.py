@@ -93,7 +93,7 @@ def step_table(figures):
     for bed, value in of_group(figures, "steps").items():
         gain = value.get("gain_of_two_threads")
         shares = [f"{value['step_ms'] * value[phase]:.3g} ({value[phase]:.0%})" for phase in PHASES]
-        rows.append((bed, number(value["spheres"]), number(value["contacts"]), f"{value['sweeps']:.1f}",
+        rows.append((bed, number(value["spheres"]), number(value["contacts"]), f"{value['sweeps_a_step']:.1f}",
                      number(value["step_ms"]), *shares, number(value["assembly_ns_contact"]),
                      number(value["ns_sphere_step"]), number(value["Mupdates_s"]),
                      f"{gain:.2f}" if gain else "–", f"{max(0.0, 2.0 / gain - 1.0):.0%}" if gain else "–"))

@@ -75,7 +75,7 @@ void steps(benchmark::State& run, const std::string& bed, int in_a_block)
     const auto& [one, two] = tallies;
     run.counters["spheres"] = one.sphere_steps / one.steps;
     run.counters["contacts"] = one.contacts / one.steps;
-    run.counters["sweeps"] = one.sweeps / one.steps;
+    run.counters["sweeps_a_step"] = one.sweeps / one.steps;
     run.counters["step_ms"] = 1e3 * one.cpu / one.steps;
     run.counters["ns_sphere_step"] = 1e9 * one.cpu / one.sphere_steps;
     run.counters["assembly_ns_contact"] = 1e9 * one.phase_cpu[static_cast<std::size_t>(Phase::assembly)] / one.contacts;
@@ -125,7 +125,7 @@ void settled_box(benchmark::State& run, const std::string& bed)
     }
     run.counters["spheres"] = static_cast<double>(simulation.state.count());
     run.counters["contacts"] = tally.contacts / tally.steps;
-    run.counters["sweeps"] = tally.sweeps / tally.steps;
+    run.counters["sweeps_a_step"] = tally.sweeps / tally.steps;
     run.counters["step_ms"] = 1e3 * tally.cpu / tally.steps;
     run.counters["Mupdates_s"] = 1e-6 * tally.updates / tally.phase_cpu[static_cast<std::size_t>(Phase::sweeps)];
     run.counters["kinetic_energy_J"] = kinetic_energy(simulation.state);
