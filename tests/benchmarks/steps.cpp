@@ -23,7 +23,7 @@ constexpr std::array<const char*, 6> phases = {"search", "assembly", "warm_start
 struct Tally {
     double wall = 0.0, cpu = 0.0;
     std::array<double, phases.size()> phase_wall{}, phase_cpu{};
-    double steps = 0.0, sweeps = 0.0, contacts = 0.0, updates = 0.0, sphere_steps = 0.0;
+    double steps = 0.0, sweeps = 0.0, candidates = 0.0, contacts = 0.0, updates = 0.0, sphere_steps = 0.0;
 };
 
 /// Makes steps and adds them up.
@@ -41,6 +41,7 @@ void make_steps(Simulation& simulation, int count, Tally& tally)
     for (int k = 0; k < count; ++k) {
         const auto report = advance(simulation, clock);
         const auto contacts = static_cast<double>(report.contacts.count);
+        tally.candidates += static_cast<double>(report.search.candidates);
         tally.contacts += contacts;
         tally.sweeps += report.solve.sweeps;
         tally.updates += contacts * report.solve.sweeps;
@@ -74,6 +75,7 @@ void steps(benchmark::State& run, const std::string& bed, int in_a_block)
     }
     const auto& [one, two] = tallies;
     run.counters["spheres"] = one.sphere_steps / one.steps;
+    run.counters["candidates"] = one.candidates / one.steps;
     run.counters["contacts"] = one.contacts / one.steps;
     run.counters["sweeps_a_step"] = one.sweeps / one.steps;
     run.counters["step_ms"] = 1e3 * one.cpu / one.steps;
