@@ -145,8 +145,9 @@ def peer_tables(part):
             header = ("code", "setting", "settling, CPU s", "discharging, CPU s", "flow", "mean overlap before opening",
                       "worst", "mean while flowing", "worst")
             cells = [(row["code"], row["setting"], number(row["settling_cpu"]), number(row["flowing_cpu"]),
-                      number(row["flow"]), f"{row['rest_mean']:.3%}", f"{row['rest_worst']:.2%}",
-                      f"{row['flow_mean']:.3%}", f"{row['flow_worst']:.2%}") for row in rows]
+                      number(row["flow"]) + (f" ± {row['flow_error']:.0f}" if "flow_error" in row else ""),
+                      *(f"{row[name]:.3%}" for name in ("rest_mean", "rest_worst", "flow_mean", "flow_worst")))
+                     for row in rows]
         else:
             header = ("code", "setting", "CPU s", "angle [°]", "over the lip", "mean overlap", "worst")
             cells = [(row["code"], row["setting"], number(row["flowing_cpu"]), f"{row['angle']:.1f}",

@@ -11,6 +11,7 @@ that a load of the machine that comes and goes falls on all.
 Exit codes: 0 done; 2 the call is wrong; 5 a code failed.
 """
 import argparse
+import itertools
 import json
 import math
 import os
@@ -160,6 +161,17 @@ def mean_and_worst(frames):
     return float(found.mean()), float(found.max())
 
 
+def flow_of(window):
+    """Spheres a second that leave the silo, and the standard error: from the slopes in four parts of the time."""
+    def slope(frames):
+        above = [numpy.count_nonzero(frame.centers[:, 2] > 0.0) for frame in frames]
+        return -float(numpy.polyfit([frame.time for frame in frames], above, 1)[0])
+
+    ends = numpy.linspace(0, len(window) - 1, 5).round().astype(int)
+    parts = [slope(window[begin:end + 1]) for begin, end in itertools.pairwise(ends)]
+    return slope(window), statistics.stdev(parts) / len(parts) ** 0.5
+
+
 def measure(program, setting, setup, seed, folder):
     """One run; the same seed gives all codes the same spheres."""
     shutil.rmtree(folder, ignore_errors=True)
@@ -180,8 +192,7 @@ def measure(program, setting, setup, seed, folder):
         if len(before.radii) < setup.count:
             raise PeerError(f"{setting.code} lost {setup.count - len(before.radii)} spheres before the silo opened.")
         window = [frame for frame in frames if early - slack <= frame.time <= late + slack]
-        above = [numpy.count_nonzero(frame.centers[:, 2] > 0.0) for frame in window]
-        figures["flow"] = -numpy.polyfit([frame.time for frame in window], above, 1)[0]
+        figures["flow"], figures["flow_error"] = flow_of(window)
         figures["rest_mean"], figures["rest_worst"] = mean_and_worst([before])
         inside = [Frame(f.time, f.centers[f.centers[:, 2] > 0], f.radii[f.centers[:, 2] > 0]) for f in window]
         figures["flow_mean"], figures["flow_worst"] = mean_and_worst(inside)
@@ -213,6 +224,7 @@ def run_all(setups, talus, folder):
             middle = {name: statistics.median(run[name] for run in runs) for name in runs[0]}
             if "flow" in middle:
                 middle["flow"] = statistics.mean(run["flow"] for run in runs)
+                middle["flow_error"] = sum(run["flow_error"] ** 2 for run in runs) ** 0.5 / len(runs)
             rows.append({"setup": setup.name, "code": setting.code, "setting": setting.name, "runs": len(runs),
                          **middle})
     return {"rows": rows, "skipped": skipped}
