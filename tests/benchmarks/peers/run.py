@@ -44,7 +44,8 @@ class Setup(NamedTuple):
     count: int
     radius: float  # of the lattice's tube [m]
     base: float  # its lower end [m]
-    walls: list  # profiles of walls of revolution
+    half_width: float  # of the room of LAMMPS and LIGGGHTS [m] …
+    top: float  # … and where it ends, a little above the spheres, with the walls [m]
     opened: float  # when the gate is taken away; 0 without one
     end: float
     flow: tuple  # times after the opening between which the flow is measured
@@ -52,12 +53,10 @@ class Setup(NamedTuple):
     repetitions: int
 
 
-SILO_WALLS = [[(0.1, 1.0), (0.1, 0.0), (0.035, 0.0)]]
-PILE_WALLS = [[(0.12, 0.6), (0.12, 0.24), (0.03, 0.15)], [(0.15, 0.01), (0.15, 0.0), (0.0, 0.0)]]
 SETUPS = [
-    Setup("silo_2000", 2000, 0.1, 0.001, SILO_WALLS, 0.8, 1.3, (0.1, 0.4), 0.02, 3),
-    Setup("pile_3000", 3000, 0.12, 0.25, PILE_WALLS, 0.0, 4.0, (), 0.1, 1),
-    Setup("silo_10000", 10000, 0.1, 0.001, SILO_WALLS, 0.8, 2.0, (0.4, 1.2), 0.05, 1),
+    Setup("silo_2000", 2000, 0.1, 0.001, 0.12, 0.15, 0.8, 1.3, (0.1, 0.4), 0.02, 3),
+    Setup("pile_3000", 3000, 0.12, 0.25, 0.18, 0.4, 0.0, 4.0, (), 0.1, 1),
+    Setup("silo_10000", 10000, 0.1, 0.001, 0.12, 0.6, 0.8, 2.0, (0.4, 1.2), 0.05, 1),
 ]
 
 
@@ -89,6 +88,13 @@ class Frame(NamedTuple):
     time: float  # s
     centers: numpy.ndarray
     radii: numpy.ndarray
+
+
+def profiles(setup):
+    """Its walls, to be turned round the axis: radii and heights [m]."""
+    if setup.name.startswith("silo"):
+        return [[(0.1, setup.top), (0.1, 0.0), (0.035, 0.0)]]
+    return [[(0.12, setup.top), (0.12, 0.24), (0.03, 0.15)], [(0.15, 0.01), (0.15, 0.0), (0.0, 0.0)]]
 
 
 def program_of(code, talus):
@@ -178,8 +184,8 @@ def measure(program, setting, setup, seed, folder):
     folder.mkdir(parents=True)
     centers, radii = jittered_lattice(setup.count, setup.radius, setup.base, seed)
     write_csv(folder / "spheres.csv", centers, radii)
-    write_data(folder / "spheres.data", centers, radii)
-    write_stl(folder / "walls.stl", setup.walls)
+    write_data(folder / "spheres.data", centers, radii, setup.half_width, setup.top)
+    write_stl(folder / "walls.stl", profiles(setup))
     run = run_talus if setting.code == "Talus" else run_smooth
     settling, flowing, frames = run(program, setting, setup, folder)
     frames.sort(key=lambda frame: frame.time)

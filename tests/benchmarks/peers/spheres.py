@@ -33,9 +33,11 @@ def write_csv(path, centers, radii):
     path.write_text("\n".join(["x,y,z,radius", *rows]) + "\n", encoding="utf-8")
 
 
-def write_data(path, centers, radii):
-    """As LAMMPS and LIGGGHTS read them. Spheres that leave this box are gone, below it those that came through."""
-    box = ((-0.4, 0.4), (-0.4, 0.4), (-0.2, 1.2))
+def write_data(path, centers, radii, half_width, top):
+    """As LAMMPS and LIGGGHTS read them. Spheres that leave this box are gone, below it those that came through. It is no
+    larger than it must be: they clear all its cells whenever they list neighbours anew, which in a room of 1 m³ took
+    more than all the rest."""
+    box = ((-half_width, half_width), (-half_width, half_width), (-0.2, top + 0.02))
     lines = ["Spheres of the comparison", "", f"{len(radii)} atoms", "1 atom types", ""]
     lines += [f"{low} {high} {axis}lo {axis}hi" for axis, (low, high) in zip("xyz", box)]
     lines += ["", "Atoms", ""]
