@@ -94,11 +94,12 @@ def step_table(figures):
         gain = value.get("gain_of_two_threads")
         shares = [f"{value['step_ms'] * value[phase]:.3g} ({value[phase]:.0%})" for phase in PHASES]
         rows.append((bed, number(value["spheres"]), number(value["candidates"]), number(value["contacts"]),
-                     f"{value['sweeps_a_step']:.1f}", number(value["step_ms"]), *shares, number(value["assembly_ns_contact"]),
-                     number(value["ns_sphere_step"]), number(value["Mupdates_s"]),
+                     f"{value['sweeps_a_step']:.1f}", number(value["step_ms"]), *shares,
+                     number(value["assembly_ns_contact"]), number(value["ns_sphere_step"]), number(value["Mupdates_s"]),
                      f"{gain:.2f}" if gain else "–", f"{max(0.0, 2.0 / gain - 1.0):.0%}" if gain else "–"))
     header = ("bed", "spheres", "candidates", "contacts", "sweeps", "ms a step",
-              *(phase.replace("_", " ") for phase in PHASES), "assembly, ns a contact", "ns a sphere", "million updates/s", "gain", "serial")
+              *(phase.replace("_", " ") for phase in PHASES), "assembly, ns a contact", "ns a sphere",
+              "million updates/s", "gain", "serial")
     return table(header, rows)
 
 

@@ -34,9 +34,9 @@ def write_csv(path, centers, radii):
 
 
 def write_data(path, centers, radii, half_width, top):
-    """As LAMMPS and LIGGGHTS read them. Spheres that leave this box are gone, below it those that came through. It is no
-    larger than it must be: they clear all its cells whenever they list neighbours anew, which in a room of 1 m³ took
-    more than all the rest."""
+    """As LAMMPS and LIGGGHTS read them. Spheres that leave this box are gone, below it those that came through. It is
+    no larger than it must be: they clear all its cells whenever they list neighbours anew, which in a room of 1 m³ took
+    as long as all the rest."""
     box = ((-half_width, half_width), (-half_width, half_width), (-0.2, top + 0.02))
     lines = ["Spheres of the comparison", "", f"{len(radii)} atoms", "1 atom types", ""]
     lines += [f"{low} {high} {axis}lo {axis}hi" for axis, (low, high) in zip("xyz", box)]
