@@ -146,7 +146,7 @@ def peer_tables(part):
             header = ("code", "setting", "settling, CPU s", "discharging, CPU s", "flow", "mean overlap before opening",
                       "worst", "mean while flowing", "worst")
             cells = [(row["code"], row["setting"], number(row["settling_cpu"]), number(row["flowing_cpu"]),
-                      number(row["flow"]) + (f" ± {row['flow_error']:.0f}" if "flow_error" in row else ""),
+                      f"{number(row['flow'])} ± {row['flow_error']:.0f}",
                       *(f"{row[name]:.3%}" for name in ("rest_mean", "rest_worst", "flow_mean", "flow_worst")))
                      for row in rows]
         else:

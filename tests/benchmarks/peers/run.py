@@ -211,8 +211,9 @@ def measure(program, setting, setup, seed, folder):
     return figures
 
 
-def run_all(setups, talus, folder):
-    """For each set-up the medians of each setting, of the flow its mean, and which codes were skipped."""
+def run_all(setups, talus, folder, keep):
+    """For each set-up the medians of each setting, of the flow its mean, and which codes were skipped; what there is by
+    then is kept after each set-up, so that little is lost when this is broken off."""
     skipped = [code for code in PROGRAMS if not program_of(code, talus)]
     for code in skipped:
         print(f"{code}: skipped, it is not installed (Debian: apt-get install --no-install-recommends {code.lower()})")
@@ -233,7 +234,7 @@ def run_all(setups, talus, folder):
                 middle["flow_error"] = sum(run["flow_error"] ** 2 for run in runs) ** 0.5 / len(runs)
             rows.append({"setup": setup.name, "code": setting.code, "setting": setting.name, "runs": len(runs),
                          **middle})
-    return {"rows": rows, "skipped": skipped}
+        keep({"rows": rows, "skipped": skipped})
 
 
 def main():
@@ -246,12 +247,15 @@ def main():
     setups = [one for one in SETUPS if not arguments.words or any(word in one.name for word in arguments.words)]
     if not setups:
         parser.error("no set-up has one of these words in its name")
+
+    def keep(found):
+        arguments.json.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
     try:
-        found = run_all(setups, arguments.talus.resolve(), arguments.folder.resolve())
+        run_all(setups, arguments.talus.resolve(), arguments.folder.resolve(), keep)
     except PeerError as error:
         print(f"run.py: {error}", file=sys.stderr)
         return 5
-    arguments.json.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     return 0
 
 
