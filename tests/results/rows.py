@@ -211,11 +211,6 @@ ROWS = [
          "assembly": ratio("timing.phases.assembly.cpu", "timing.cpu")},
         "{step:.3f} s on {threads:.0f} threads; {memory:.0f} B a sphere; {sweeps:.0%}, {search:.0%}, {assembly:.0%}",
         "", 3),
-    Row("updates", COST, "million contact updates a second of sweep time, one thread: all; no rotation; no friction",
-        "build/benchmark_step --benchmark_filter=discharge_with",
-        {name: said(rf"discharge_with/{name}/.*Mupdates/s=N")
-         for name in ("friction_and_rotation", "friction_alone", "neither")},
-        "{friction_and_rotation:.0f}; {friction_alone:.0f}; {neither:.0f}", "", 2),
     Row("checkpoint", COST, "size of a checkpoint of a dense bed, `packing`", "build/talus run packing",
         {"size": lambda run: (run.folder / "checkpoint.latest").stat().st_size / run.summary("ledger.inside")},
         "{size:.0f} B a sphere", "", 1),
