@@ -75,8 +75,7 @@ double contact_dissipation(const World& world, const State& before)
             const Twist twist = twist_between(pose_at(motion, before.time), pose_at(motion, before.time + h), h);
             u = mean(i, -radius * force.normal) - twist.at(x);
         } else {
-            const double other = world.radius(force.b);
-            const double scale = 1.0 + force.gap / (radius + other);
+            const double other = world.radius(force.b), scale = force.arm_scale;
             u = mean(i, -scale * radius * force.normal) - mean(world.index_of(force.b), scale * other * force.normal);
         }
         sum -= h * (force.normal_force * force.normal + force.tangent_force).dot(u);

@@ -106,13 +106,14 @@ TEST_CASE("an elastic gas of any density keeps its energy, and has the pressure 
 
 TEST_CASE("a gas cools by Haff's law", "[restitution][gas]")
 {
-    // E = E₀ (1 + t/t₀)⁻², t₀ = 6/((1 − e²) ν) (Haff 1983), over five impacts a sphere; mean of six gases, of which one
-    // is good to 2.5 %. Inelastic spheres meet less often than Enskog has it: at a solid fraction of 0.1 and e = 0.7 an
-    // eighth of the step has 0.980 ± 0.008 of his rate too.
-    const auto [e, of_enskog] = GENERATE(table<double, double>({{0.7, 0.98}, {0.8, 1.0}, {0.9, 1.0}, {0.95, 1.0}}));
+    // E = E₀ (1 + t/t₀)⁻², t₀ = 6/((1 − e²) ν) (Haff 1983), over five impacts a sphere; mean of gases of which one
+    // is good to 3 %. Inelastic spheres meet less often than Enskog has it: at a solid fraction of 0.1 and e = 0.7 an
+    // eighth of the step has 0.980 ± 0.008 of his rate too, and what is missing goes with 1 − e².
+    const double e = GENERATE(0.7, 0.8, 0.9, 0.95);
+    const double of_enskog = 1.0 - 0.04 * (1.0 - e * e);
     constexpr double solid_fraction = 0.1;
     double sum = 0.0;
-    constexpr int gases = 12;
+    constexpr int gases = 24;
     for (int seed = 1; seed <= gases; ++seed) {
         World world = gas(solid_fraction, e, seed);
         const double start = kinetic_energy(world.state), rate = enskog_rate(world, solid_fraction);

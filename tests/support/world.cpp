@@ -32,6 +32,7 @@ ContactForce contact_force(const Contact& contact, const ContactTerms& terms, co
     force.tangent_force = contact.impulse / h - force.normal_force * contact.normal;
     force.friction = terms.friction;
     force.gap = geometry.gap;
+    force.arm_scale = terms.arm_scale;
     return force;
 }
 

@@ -33,6 +33,7 @@ struct ContactForce {
     Vec3 tangent_force;
     double friction = 0.0;
     double gap = 0.0;
+    double arm_scale = 1.0;
 };
 
 /// A small simulation: what it models, its spheres (by id, because storage order may change), and how its last step
