@@ -2,7 +2,7 @@
 #include "core/contacts/assembly.hpp"
 
 #include "core/candidates/candidate_search.hpp"
-#include "core/contacts/law.hpp"
+#include "core/contacts/tile_assembly.hpp"
 #include "core/contacts/wall_contacts.hpp"
 
 #include <omp.h>
@@ -14,40 +14,7 @@ namespace talus
 namespace
 {
 
-constexpr double touching = 1e-9;   ///< overlap of spheres laid side by side, for rounding [smallest diameters]
 constexpr double least_turn = 1e-9; ///< of a wall's normal in a step: less is rounding
-
-/// Numbers that all contacts of a step share.
-struct StepConstants {
-    StepLength length;
-    double h;               ///< of the length
-    double reach;           ///< of open contacts [m]
-    double threshold_speed; ///< slowest impact: that of the whole step [m/s]
-
-    StepConstants(const Model& model, const StepLength& step)
-        : length(step), h(step.h()), reach(open_contact_reach * model.min_diameter),
-          threshold_speed(model.solver.restitution_threshold * model.gravity.norm() * step.h() * step.parts)
-    {
-    }
-};
-
-/// Geometry and motion of a contact, as detection found them.
-struct Touch {
-    std::int32_t a, b;
-    Vec3 normal;
-    double gap;
-    double u_n;       ///< of v⁽⁰⁾ [m/s]
-    double u_n_ahead; ///< of v⁽¹⁾ [m/s]
-    double closes;    ///< when the gap does so, with v⁽¹⁾ [s]; used where there is restitution
-    double u_n_before; ///< of v⁽⁰⁾ against the velocity that the wall had then: 0 where a sphere goes with it [m/s]
-    double u_n_turned;          ///< what the turn of the normal since the step before has added to u_n [m/s]
-    double arm_scale;           ///< s
-    double inverse_mass_sum;    ///< W
-    double rolling_radius;      ///< R*
-    double inverse_inertia_sum; ///< 1/I_a + 1/I_b [1/(kg m²)]
-    std::uint32_t slot;
-    WallRow wall = {}; ///< at walls that move
-};
 
 bool within_reach(double gap, double u_n_ahead, const StepConstants& step)
 {
@@ -58,114 +25,6 @@ double inverse_inertia(const Motion& m)
 {
     return inverse_inertia_factor * m.inverse_mass / (m.radius * m.radius);
 }
-
-/// The impulse carried into a contact: turned into the new frame and cut back to the cone, nothing for an impact.
-Vec3 warm_impulse(const Vec3& carried, const Vec3& normal, double friction)
-{
-    const double normal_impulse = std::max(0.0, carried.dot(normal));
-    Vec3 tangent = carried - carried.dot(normal) * normal;
-    const double largest = friction * normal_impulse;
-    const double size = tangent.norm();
-    if (size > largest) tangent *= largest / size;
-    return normal_impulse * normal + tangent;
-}
-
-/// Writes contacts of one kind and tile.
-class TileAssembly
-{
-public:
-    /// @param filler finds them places in packs; null: one after the other
-    TileAssembly(TileContacts& contacts, PackFiller* filler, bool with_walls, const CarriedImpulses& carried,
-        const State& state, const Model& model, const StepConstants& step)
-        : contacts_(contacts), filler_(filler), with_walls_(with_walls), carried_(carried), model_(model), step_(step),
-          inertia_factor_(model.physics.spin ? inverse_inertia_factor : 0.0)
-    {
-        if (filler) filler->begin(contacts, state.count());
-    }
-
-    bool add(const Touch& touch, const ContactLaw& law, double wall_level)
-    {
-        const TouchRecord& before = carried_.touch[touch.slot];
-        const auto kind =
-            contact_kind(touch.gap, touch.u_n, touch.closes, before.is_loaded(), law, step_.h, step_.threshold_speed);
-        const Vec3 warm = kind == ContactKind::impact
-                              ? Vec3::Zero().eval()
-                              : warm_impulse(carried_.impulse[touch.slot], touch.normal, law.friction);
-        const double w = touch.inverse_mass_sum;
-        const double u_n = kind == ContactKind::impact ? touch.u_n : touch.u_n_before;
-        const auto normal =
-            normal_law({kind, touch.gap, u_n, w, warm.dot(touch.normal), before.is_jammed(), touch.u_n_turned}, law,
-                model_.solver, step_.length);
-        note_overlap(touch.gap);
-        const bool bears = law.restitution == 0.0 || before.is_loaded();
-        if (kind != ContactKind::impact && !bears && is_left_alone(touch)) return false;
-
-        const std::size_t k = filler_ ? filler_->place(touch.a, with_walls_ ? -1 : touch.b) : contacts_.append();
-        contacts_.set(k, {touch.a, touch.b, touch.normal, normal.target, warm},
-            {touch.arm_scale, law.friction, normal.compliance, 1.0 / (w + normal.compliance),
-                1.0 / (w * (1.0 + inertia_factor_ * touch.arm_scale * touch.arm_scale)), w},
-            {touch.gap, wall_level, touch.slot, kind});
-        if (contacts_.has_moving_walls()) contacts_.set_wall(k, touch.wall);
-        if (contacts_.has_rolling()) contacts_.set_rolling(k, rolling_row(touch, law, kind, warm.dot(touch.normal)));
-        ++survey_.count;
-        survey_.impacts += kind == ContactKind::impact;
-        if (bears) survey_.stored_energy += stored_energy(touch.gap, normal); // what an impact overlaps is no spring
-        return true;
-    }
-
-    ContactSurvey finish()
-    {
-        if (filler_) filler_->end();
-        return survey_;
-    }
-
-private:
-    /// What an impact elsewhere closes within this step is an impact of its own in the next one: so a contact that does
-    /// not close by itself, or opens, stays out of the problem. Spheres that touch without a load count as apart. In a
-    /// split step nothing is left alone: walls must hold what is thrown at them.
-    bool is_left_alone(const Touch& touch) const
-    {
-        if (step_.length.is_split()) return false;
-        if (touch.gap > 0.0) return touch.closes >= step_.h;
-        return touch.gap + step_.h * touch.u_n_ahead >= -touching * model_.min_diameter;
-    }
-
-    RollingRow rolling_row(const Touch& touch, const ContactLaw& law, ContactKind kind, double warm_normal) const
-    {
-        RollingRow row{Vec3::Zero(), law.rolling_friction * touch.rolling_radius, 1.0 / touch.inverse_inertia_sum};
-        if (kind == ContactKind::impact) return row;
-        const Vec3& carried = carried_.rolling_impulse[touch.slot];
-        row.impulse = carried - carried.dot(touch.normal) * touch.normal;
-        const double largest = row.reach * warm_normal;
-        const double size = row.impulse.norm();
-        if (size > largest) row.impulse *= largest / size;
-        return row;
-    }
-
-    void note_overlap(double gap)
-    {
-        if (gap >= 0.0) return;
-        ++survey_.overlapping;
-        survey_.worst_overlap = std::max(survey_.worst_overlap, -gap);
-        survey_.overlap_sum -= gap;
-    }
-
-    /// With k = 4 Υ / (Σ_n h²), the stiffness that the compliance stands for [J].
-    double stored_energy(double gap, const NormalLaw& law) const
-    {
-        if (gap >= 0.0 || law.compliance == 0.0 || model_.solver.stabilisation != Stabilisation::matched) return 0.0;
-        return 2.0 * upsilon / (law.compliance * step_.h * step_.h) * gap * gap * law.feedback_share;
-    }
-
-    TileContacts& contacts_;
-    PackFiller* filler_;
-    bool with_walls_;
-    const CarriedImpulses& carried_;
-    const Model& model_;
-    const StepConstants& step_;
-    double inertia_factor_; ///< 0 where spheres do not turn
-    ContactSurvey survey_;
-};
 
 PackFiller& filler_of_thread(ContactNetwork& network)
 {

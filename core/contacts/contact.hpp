@@ -50,6 +50,7 @@ struct ContactGeometry {
     double wall_level = 0.0; ///< n·x at which the gap to the wall is zero after the step [m]; unused between spheres
     std::uint32_t slot = 0;  ///< where its impulse is carried
     ContactKind kind = ContactKind::open;
+    bool waits = false; ///< it is left out of the problem where one of its spheres has an impact
 };
 
 } // namespace talus

@@ -49,6 +49,19 @@ void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms
     geometry[k] = own;
 }
 
+void TileContacts::remove(std::size_t k)
+{
+    std::size_t last = k - k % pack_size + pack_size - 1;
+    while (a(last) < 0) --last;
+    set(k, contact(last), terms(last), geometry[last]);
+    set(last, {.a = -1, .b = -1}, {}, {});
+    if (with_rolling_) {
+        set_rolling(k, rolling(last));
+        set_rolling(last, {});
+    }
+    if (with_moving_walls_) set_wall(k, wall(last));
+}
+
 void TileContacts::set_rolling(std::size_t k, const RollingRow& row)
 {
     RollingPack& pack = rolling_[k / pack_size];

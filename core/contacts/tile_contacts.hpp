@@ -23,6 +23,8 @@ public:
     /// Adds a contact behind the last one, whatever spheres it shares: for contacts that are not swept by packs.
     std::size_t append();
     void set(std::size_t k, const Contact& contact, const ContactTerms& terms, const ContactGeometry& own);
+    /// Takes contact k away; the last one of its pack takes its place.
+    void remove(std::size_t k);
     void set_rolling(std::size_t k, const RollingRow& row);
     void set_wall(std::size_t k, const WallRow& row);
     void set_impulse(std::size_t k, const Vec3& impulse) { put(packs_[k / pack_size].impulse, k % pack_size, impulse); }

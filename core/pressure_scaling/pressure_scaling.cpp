@@ -14,7 +14,7 @@ namespace
 
 using Eigen::VectorXd;
 
-constexpr double negligible = 1e-3;        ///< share of a load: what is missing of it need not be corrected
+constexpr double negligible = 1e-4;        ///< share of a load: what is missing of it need not be corrected
 constexpr double hat_spacing = 4.0;        ///< mean diameters …
 constexpr double widest_grain = 1.0;       ///< … and at least so many largest ones: a sphere must fit into a cell
 constexpr double least_growth = -0.8;      ///< α of a node: impulses stay positive …

@@ -22,7 +22,7 @@ struct ScalingReport {
 /// the warm start, the scaling made a flow out of a hopper overlap nine times as much, in half as many sweeps again.
 constexpr int sweeps_before_scaling = 2;
 
-/// Whether sweeps alone leave the load of a bed wrong by more than a thousandth: they carry it through n layers in
+/// Whether sweeps alone leave the load of a bed wrong by more than a ten-thousandth: they carry it through n layers in
 /// some n² of them, and under a mass M on grains of mass m in M/m.
 /// @param change ε of what the last sweep before changed
 bool needs_scaling(double change, const State& state, const Model& model);

@@ -15,7 +15,8 @@ namespace
 struct Meetings {
     double instants = 0.0; ///< sum over the impacts [s]
     int impacts = 0;
-    bool held = false; ///< there are other contacts
+    bool struck = false; ///< there is one, be it at a wall
+    bool held = false;   ///< there are other contacts than impacts with spheres
 
     bool meets_one() const { return impacts == 1 && !held; }
     bool in_flight() const { return impacts > 0 && !held; }
@@ -41,6 +42,25 @@ public:
     }
 
     /// Tiles of one colour may be surveyed at the same time.
+    void survey_impacts(std::size_t tile)
+    {
+        const TileContacts &spheres = network_.contacts.spheres[tile], &walls = network_.contacts.walls[tile];
+        for (const std::size_t k : spheres.indices())
+            if (spheres.geometry[k].kind == ContactKind::impact)
+                of[spheres.a(k)].struck = of[spheres.b(k)].struck = true;
+        for (const std::size_t k : walls.indices())
+            if (walls.geometry[k].kind == ContactKind::impact) of[walls.a(k)].struck = true;
+    }
+
+    /// Takes what waits for an impact out of the problem.
+    void leave_out(TileContacts& contacts, bool with_walls) const
+    {
+        for (std::size_t k = pack_size * contacts.packs(); k-- > 0;) {
+            if (contacts.a(k) < 0 || !contacts.geometry[k].waits) continue;
+            if (of[contacts.a(k)].struck || (!with_walls && of[contacts.b(k)].struck)) contacts.remove(k);
+        }
+    }
+
     void survey(std::size_t tile)
     {
         const TileContacts &spheres = network_.contacts.spheres[tile], &walls = network_.contacts.walls[tile];
@@ -120,6 +140,11 @@ std::vector<Flight> place_impacts(ContactNetwork& network, const State& state, c
     MeetingSurvey meetings(network, state, model, h);
     if (model.physics.pistons) meetings.survey_pistons();
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
+        crew.color_by_color([&](std::size_t tile) { meetings.survey_impacts(tile); });
+        crew.all_at_once([&](std::size_t tile) {
+            meetings.leave_out(network.contacts.spheres[tile], false);
+            meetings.leave_out(network.contacts.walls[tile], true);
+        });
         crew.color_by_color([&](std::size_t tile) { meetings.survey(tile); });
         if (!model.gravity.isZero()) crew.color_by_color([&](std::size_t tile) { meetings.keep_pairs(tile); });
         crew.all_at_once([&](std::size_t tile) {

@@ -23,12 +23,6 @@ struct Carried {
     double sinking = 0.0;              ///< largest way of a centre of mass in all steps [d]
 };
 
-double median(std::vector<double> values)
-{
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
-
 void load_top(Carried& carried, const Simulation& bed, bool scaled, int min_sweeps)
 {
     LoadedBed loaded(bed);

@@ -55,7 +55,8 @@ TEST_CASE("a sphere at rest on a soft floor overlaps by m g / k", "[statics][com
     world.step(20000);
     const double overlap = world.mass() * standard_gravity / stiffness_for(omega_h);
     CHECK(standard_radius - world.position().z() == Approx(overlap).margin(1e-9 * overlap + 1e-17));
-    CHECK(world.report.contacts.worst_overlap == Approx(overlap).margin(1e-9 * overlap + 1e-17)); // 1e-17: round-off of z
+    CHECK(
+        world.report.contacts.worst_overlap == Approx(overlap).margin(1e-9 * overlap + 1e-17)); // 1e-17: round-off of z
     CHECK(world.report.contacts.stored_energy == within(1e-8, 0.5 * stiffness_for(omega_h) * overlap * overlap));
 }
 

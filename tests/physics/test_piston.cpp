@@ -212,7 +212,7 @@ TEST_CASE("what a plate in a jostling heap gains in momentum is what gravity, lo
     double weights = 0.05;
     for (const Motion& m : world.state.motion) weights += 1.0 / m.inverse_mass;
     std::size_t contacts = 0;
-    for (int k = 0; k < 400; ++k) {
+    for (int k = 0; k < 500; ++k) {
         const Vec3 before = world.momentum();
         world.step();
         contacts += world.network.contacts.pistons.count();
