@@ -31,6 +31,36 @@ PackFiller& filler_of_thread(ContactNetwork& network)
     return network.contacts.fillers[static_cast<std::size_t>(omp_get_thread_num())];
 }
 
+/// So wide that two spheres of which one comes within reach of the other have balls that meet.
+ReachBall reach_ball(const State& state, std::size_t i, const StepConstants& step)
+{
+    const Motion& m = state.motion[i];
+    return {state.position[i], m.radius + std::max(0.5 * step.reach, closing_horizon * step.h * m.velocity.norm())};
+}
+
+/// The candidates of a tile whose balls meet, and those that are loaded: few enough to look at one by one.
+template <bool periodic>
+std::vector<std::uint32_t> near_candidates(
+    const ContactNetwork& network, std::size_t tile, const Periodicity& periodicity)
+{
+    const CandidateList& list = network.list;
+    const auto first = list.pairs_of_tile[tile], last = list.pairs_of_tile[tile + 1];
+    std::vector<std::uint32_t> near(last - first + 1);
+    std::size_t count = 0;
+    for (auto k = first; k < last; ++k) {
+        const auto [a, b] = list.pairs[k];
+        const ReachBall &ball_a = network.contacts.reach_balls[a], &ball_b = network.contacts.reach_balls[b];
+        Vec3 across = ball_a.center - ball_b.center;
+        if constexpr (periodic) across = periodicity.nearest_image(across);
+        const double radii = ball_a.radius + ball_b.radius;
+        near[count] = k; // no branch: which are near is no pattern
+        count += static_cast<std::size_t>(
+            static_cast<int>(across.squaredNorm() <= radii * radii) | network.carried.pairs.touch[k].is_loaded());
+    }
+    near.resize(count);
+    return near;
+}
+
 /// @param periodic whether there is a border to reach across
 template <bool periodic>
 ContactSurvey assemble_sphere_contacts(
@@ -39,18 +69,13 @@ ContactSurvey assemble_sphere_contacts(
     const CandidateList& list = network.list;
     TileAssembly assembly(
         network.contacts.spheres[tile], &filler_of_thread(network), false, network.carried.pairs, state, model, step);
-    for (auto k = list.pairs_of_tile[tile]; k < list.pairs_of_tile[tile + 1]; ++k) {
+    for (const std::uint32_t k : near_candidates<periodic>(network, tile, model.periodicity)) {
         const auto [a, b] = list.pairs[k];
         const Motion& ma = state.motion[a];
         const Motion& mb = state.motion[b];
         Vec3 across = state.position[a] - state.position[b];
         if constexpr (periodic) across = model.periodicity.nearest_image(across);
         const double radii = ma.radius + mb.radius;
-        const double closing = across.dot(ma.velocity - mb.velocity);
-        if (closing >= 0.0 && across.squaredNorm() > (radii + step.reach) * (radii + step.reach)) {
-            network.carried.pairs.clear(k);
-            continue;
-        }
         const double distance = across.norm();
         // Spheres with one centre are pushed apart along a fixed direction: any will do, but always the same.
         const Vec3 normal = distance > 0.0 ? Vec3(across / distance) : Vec3::UnitZ();
@@ -253,6 +278,9 @@ ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, con
         model.periodicity.any() ? assemble_sphere_contacts<true> : assemble_sphere_contacts<false>;
     const auto tiles = static_cast<std::int64_t>(network.list.tiles.count());
     std::vector<ContactSurvey> surveys(network.list.tiles.count());
+    network.contacts.reach_balls.resize(state.count());
+#pragma omp parallel for if (tiles > 16)
+    for (std::size_t i = 0; i < state.count(); ++i) network.contacts.reach_balls[i] = reach_ball(state, i, step);
 #pragma omp parallel for schedule(dynamic) if (tiles > 16)
     for (std::int64_t t = 0; t < tiles; ++t) {
         const auto tile = static_cast<std::size_t>(t);

@@ -9,13 +9,20 @@
 namespace talus
 {
 
+/// What a sphere can touch in this step meets this ball.
+struct ReachBall {
+    Vec3 center;
+    double radius;
+};
+
 /// The contacts of one step; scratch, made anew in every step.
 struct StepContacts {
-    std::vector<TileContacts> spheres; ///< by tile
-    std::vector<TileContacts> walls;   ///< by tile; without those with pistons …
-    TileContacts pistons;              ///< … which one thread takes after the tiles, one by one
-    std::vector<Vec3> piston_arms;     ///< by contact: from the centre of the piston to where it is [m]
-    std::vector<PackFiller> fillers;   ///< by thread
+    std::vector<TileContacts> spheres;  ///< by tile
+    std::vector<TileContacts> walls;    ///< by tile; without those with pistons …
+    TileContacts pistons;               ///< … which one thread takes after the tiles, one by one
+    std::vector<Vec3> piston_arms;      ///< by contact: from the centre of the piston to where it is [m]
+    std::vector<PackFiller> fillers;    ///< by thread
+    std::vector<ReachBall> reach_balls; ///< by sphere
 
     /// Makes room for the tiles of the list.
     void resize(const CandidateList& list, const ModelledPhysics& physics);

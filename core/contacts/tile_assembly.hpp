@@ -48,11 +48,10 @@ struct Touch {
 /// The impulse carried into a contact: turned into the new frame and cut back to the cone, nothing for an impact.
 inline Vec3 warm_impulse(const Vec3& carried, const Vec3& normal, double friction)
 {
-    const double normal_impulse = std::max(0.0, carried.dot(normal));
-    Vec3 tangent = carried - carried.dot(normal) * normal;
-    const double largest = friction * normal_impulse;
-    const double size = tangent.norm();
-    if (size > largest) tangent *= largest / size;
+    const double along = carried.dot(normal), normal_impulse = std::max(0.0, along);
+    Vec3 tangent = carried - along * normal;
+    const double largest = friction * normal_impulse, size_squared = tangent.squaredNorm();
+    if (size_squared > largest * largest) tangent *= largest / std::sqrt(size_squared);
     return normal_impulse * normal + tangent;
 }
 

@@ -13,81 +13,76 @@ namespace
 
 /// What a sphere meets in this step.
 struct Meetings {
-    double instants = 0.0; ///< sum over the impacts [s]
-    int impacts = 0;
-    bool struck = false; ///< there is one, be it at a wall
-    bool held = false;   ///< there are other contacts than impacts with spheres
+    double instants = 0.0; ///< sum over the impacts with spheres [s]
+    int impacts = 0;       ///< with spheres
+    bool held = false;     ///< there are other contacts
 
     bool meets_one() const { return impacts == 1 && !held; }
     bool in_flight() const { return impacts > 0 && !held; }
     double instant() const { return in_flight() ? instants / impacts : 0.0; }
-    void add(const ContactGeometry& geometry, double instant)
-    {
-        if (geometry.kind != ContactKind::impact)
-            held = true;
-        else {
-            ++impacts;
-            instants += instant;
-        }
-    }
 };
 
-/// Finds them for all spheres.
+/// Finds them for all spheres that are struck, by spheres or walls. Tiles of one colour may be asked at the same time.
 class MeetingSurvey
 {
 public:
-    MeetingSurvey(const ContactNetwork& network, const State& state, const Model& model, double h)
-        : of(state.count()), network_(network), state_(state), model_(model), h_(h)
+    std::vector<Meetings> of;                        ///< by sphere
+    std::vector<std::vector<std::uint32_t>> impacts; ///< by tile: its contacts between spheres that are such
+
+    MeetingSurvey(const State& state, const Model& model, std::size_t tiles, double h)
+        : of(state.count()), impacts(tiles), state_(state), model_(model), h_(h), struck_(state.count(), 0)
     {
     }
 
-    /// Tiles of one colour may be surveyed at the same time.
-    void survey_impacts(std::size_t tile)
+    void find_struck(const TileContacts& contacts, bool with_walls)
     {
-        const TileContacts &spheres = network_.contacts.spheres[tile], &walls = network_.contacts.walls[tile];
+        for (const std::size_t k : contacts.indices()) {
+            if (contacts.geometry[k].kind != ContactKind::impact) continue;
+            struck_[contacts.a(k)] = 1;
+            if (!with_walls) struck_[contacts.b(k)] = 1;
+        }
+    }
+
+    void hold_at_pistons(const TileContacts& pistons)
+    {
+        for (const std::size_t k : pistons.indices()) of[pistons.a(k)].held = true;
+    }
+
+    /// Notes what struck spheres meet, and takes what waits for an impact out of the problem.
+    void survey_walls(TileContacts& walls)
+    {
+        for (std::size_t k = pack_size * walls.packs(); k-- > 0;) {
+            if (walls.a(k) < 0 || !struck_[walls.a(k)]) continue;
+            if (walls.geometry[k].waits)
+                walls.remove(k);
+            else
+                of[walls.a(k)].held = true;
+        }
+    }
+
+    void survey_spheres(TileContacts& spheres, std::size_t tile)
+    {
+        for (std::size_t k = pack_size * spheres.packs(); k-- > 0;) {
+            const std::int32_t a = spheres.a(k), b = spheres.b(k);
+            if (a < 0 || !(struck_[a] | struck_[b])) continue;
+            if (spheres.geometry[k].waits)
+                spheres.remove(k);
+            else
+                note(spheres, k);
+        }
         for (const std::size_t k : spheres.indices())
-            if (spheres.geometry[k].kind == ContactKind::impact)
-                of[spheres.a(k)].struck = of[spheres.b(k)].struck = true;
-        for (const std::size_t k : walls.indices())
-            if (walls.geometry[k].kind == ContactKind::impact) of[walls.a(k)].struck = true;
-    }
-
-    /// Takes what waits for an impact out of the problem.
-    void leave_out(TileContacts& contacts, bool with_walls) const
-    {
-        for (std::size_t k = pack_size * contacts.packs(); k-- > 0;) {
-            if (contacts.a(k) < 0 || !contacts.geometry[k].waits) continue;
-            if (of[contacts.a(k)].struck || (!with_walls && of[contacts.b(k)].struck)) contacts.remove(k);
-        }
-    }
-
-    void survey(std::size_t tile)
-    {
-        const TileContacts &spheres = network_.contacts.spheres[tile], &walls = network_.contacts.walls[tile];
-        for (const std::size_t k : spheres.indices()) {
-            const double instant = instant_of(spheres, k);
-            of[spheres.a(k)].add(spheres.geometry[k], instant);
-            of[spheres.b(k)].add(spheres.geometry[k], instant);
-        }
-        for (const std::size_t k : walls.indices()) of[walls.a(k)].held = true;
+            if (spheres.geometry[k].kind == ContactKind::impact) impacts[tile].push_back(static_cast<std::uint32_t>(k));
     }
 
     /// Keeps those that meet one other that meets none but them. Moved by one instant they keep their potential energy,
     /// several that meet each other do not.
-    void keep_pairs(std::size_t tile)
+    void keep_pairs(const TileContacts& spheres, std::size_t tile)
     {
-        const TileContacts& spheres = network_.contacts.spheres[tile];
-        for (const std::size_t k : spheres.indices()) {
+        for (const std::uint32_t k : impacts[tile]) {
             Meetings &a = of[spheres.a(k)], &b = of[spheres.b(k)];
             if (a.meets_one() && b.meets_one()) continue;
             a.held = b.held = true;
         }
-    }
-
-    void survey_pistons()
-    {
-        const TileContacts& pistons = network_.contacts.pistons;
-        for (const std::size_t k : pistons.indices()) of[pistons.a(k)].held = true;
     }
 
     Vec3 across(std::int32_t a, std::int32_t b) const
@@ -95,17 +90,28 @@ public:
         return model_.periodicity.nearest_image(state_.position[a] - state_.position[b]);
     }
 
-    std::vector<Meetings> of; ///< by sphere
-
 private:
-    const ContactNetwork& network_;
     const State& state_;
     const Model& model_;
     double h_;
+    std::vector<std::uint8_t> struck_; ///< by sphere
+
+    void note(const TileContacts& spheres, std::size_t k)
+    {
+        Meetings &a = of[spheres.a(k)], &b = of[spheres.b(k)];
+        if (spheres.geometry[k].kind != ContactKind::impact) {
+            a.held = b.held = true;
+            return;
+        }
+        const double instant = instant_of(spheres, k);
+        for (Meetings* met : {&a, &b}) {
+            ++met->impacts;
+            met->instants += instant;
+        }
+    }
 
     double instant_of(const TileContacts& spheres, std::size_t k) const
     {
-        if (spheres.geometry[k].kind != ContactKind::impact) return 0.0;
         const Motion &a = state_.motion[spheres.a(k)], &b = state_.motion[spheres.b(k)];
         const double closes =
             closing_time(across(spheres.a(k), spheres.b(k)), a.velocity - b.velocity, a.radius + b.radius);
@@ -137,20 +143,24 @@ void place(TileContacts& spheres, std::size_t k, const MeetingSurvey& meetings, 
 
 std::vector<Flight> place_impacts(ContactNetwork& network, const State& state, const Model& model, double h)
 {
-    MeetingSurvey meetings(network, state, model, h);
-    if (model.physics.pistons) meetings.survey_pistons();
+    StepContacts& contacts = network.contacts;
+    MeetingSurvey meetings(state, model, contacts.spheres.size(), h);
+    meetings.hold_at_pistons(contacts.pistons);
+    meetings.find_struck(contacts.pistons, true);
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
-        crew.color_by_color([&](std::size_t tile) { meetings.survey_impacts(tile); });
-        crew.all_at_once([&](std::size_t tile) {
-            meetings.leave_out(network.contacts.spheres[tile], false);
-            meetings.leave_out(network.contacts.walls[tile], true);
+        crew.color_by_color([&](std::size_t tile) {
+            meetings.find_struck(contacts.spheres[tile], false);
+            meetings.find_struck(contacts.walls[tile], true);
         });
-        crew.color_by_color([&](std::size_t tile) { meetings.survey(tile); });
-        if (!model.gravity.isZero()) crew.color_by_color([&](std::size_t tile) { meetings.keep_pairs(tile); });
+        crew.color_by_color([&](std::size_t tile) {
+            meetings.survey_spheres(contacts.spheres[tile], tile);
+            meetings.survey_walls(contacts.walls[tile]);
+        });
+        if (!model.gravity.isZero())
+            crew.color_by_color([&](std::size_t tile) { meetings.keep_pairs(contacts.spheres[tile], tile); });
         crew.all_at_once([&](std::size_t tile) {
-            TileContacts& spheres = network.contacts.spheres[tile];
-            for (const std::size_t k : spheres.indices())
-                if (spheres.geometry[k].kind == ContactKind::impact) place(spheres, k, meetings, state, model);
+            for (const std::uint32_t k : meetings.impacts[tile])
+                place(contacts.spheres[tile], k, meetings, state, model);
         });
     });
 

@@ -109,7 +109,7 @@ WallPoint nearest(const Mesh& mesh, std::size_t patch, const Vec3& x)
 {
     const auto& t = mesh.triangles[patch];
     const auto vertex = [&](std::size_t k) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
-    const Vec3 normal = (vertex(1) - vertex(0)).cross(vertex(2) - vertex(0)).normalized();
+    const Vec3& normal = mesh.normals[patch];
     const Vec3 nearest = nearest_on_triangle(vertex(0), vertex(1), vertex(2), x);
     // Over an edge that two triangles share, rounding decides which is nearer; the other's point must not tilt the
     // normal where they are flat: a sphere would roll off.
@@ -264,8 +264,11 @@ Mesh make_mesh(std::vector<Vec3> vertices, std::vector<std::array<std::int32_t, 
         const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
         return ab.cross(ac).norm() <= sliver * longest;
     });
+    std::vector<Vec3> normals;
+    for (const auto& [a, b, c] : triangles)
+        normals.push_back((vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]).normalized());
     auto tree = std::make_shared<const TriangleTree>(vertices, triangles);
-    return {std::move(vertices), std::move(triangles), std::move(tree)};
+    return {std::move(vertices), std::move(triangles), std::move(normals), std::move(tree)};
 }
 
 } // namespace talus

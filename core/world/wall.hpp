@@ -59,7 +59,8 @@ struct Panels {
 struct Mesh {
     std::vector<Vec3> vertices;
     std::vector<std::array<std::int32_t, 3>> triangles;
-    std::shared_ptr<const TriangleTree> tree; ///< made by `make_mesh`
+    std::vector<Vec3> normals;                ///< by triangle, unit; made by `make_mesh`, as …
+    std::shared_ptr<const TriangleTree> tree; ///< … this is
 };
 
 /// Solid spheres fixed to each other: a rough bed.
