@@ -5,7 +5,8 @@ namespace talus
 {
 
 CarriedImpulses::CarriedImpulses(std::size_t slots, bool with_rolling)
-    : impulse(slots, Vec3::Zero()), rolling_impulse(with_rolling ? slots : 0, Vec3::Zero()), touch(slots)
+    : impulse(slots, Vec3::Zero()), rolling_impulse(with_rolling ? slots : 0, Vec3::Zero()), touch(slots),
+      free_overlap(slots, 0.0F)
 {
 }
 
@@ -29,6 +30,7 @@ void CarriedImpulses::copy(std::size_t slot, const CarriedImpulses& from, std::s
     impulse[slot] = sign * from.impulse[from_slot];
     if (!rolling_impulse.empty()) rolling_impulse[slot] = sign * from.rolling_impulse[from_slot];
     touch[slot] = from.touch[from_slot];
+    free_overlap[slot] = from.free_overlap[from_slot];
 }
 
 double Carried::scale_to(double step)

@@ -71,10 +71,11 @@ struct CarriedImpulses {
     std::vector<Vec3> impulse;         ///< λ [N s], zero where nothing is carried
     std::vector<Vec3> rolling_impulse; ///< [N m s]; empty unless the scene has rolling resistance
     std::vector<TouchRecord> touch;
+    std::vector<float> free_overlap; ///< what of its overlap is no spring [m]; known where it was loaded: law.hpp
 
     CarriedImpulses() = default;
     CarriedImpulses(std::size_t slots, bool with_rolling);
-    void persist(Archive& archive) { archive(impulse, rolling_impulse, touch); }
+    void persist(Archive& archive) { archive(impulse, rolling_impulse, touch, free_overlap); }
     void clear(std::size_t slot);
     void scale(double factor); ///< all of them
     void copy(std::size_t slot, const CarriedImpulses& from, std::size_t from_slot, bool opposite = false);

@@ -60,7 +60,7 @@ class TileAssembly
 {
 public:
     /// @param filler finds them places in packs; null: one after the other
-    TileAssembly(TileContacts& contacts, PackFiller* filler, bool with_walls, const CarriedImpulses& carried,
+    TileAssembly(TileContacts& contacts, PackFiller* filler, bool with_walls, CarriedImpulses& carried,
         const State& state, const Model& model, const StepConstants& step)
         : contacts_(contacts), filler_(filler), with_walls_(with_walls), carried_(carried), model_(model), step_(step),
           inertia_factor_(model.physics.spin ? inverse_inertia_factor : 0.0)
@@ -78,8 +78,9 @@ public:
                               : warm_impulse(carried_.impulse[touch.slot], touch.normal, law.friction);
         const double w = touch.inverse_mass_sum;
         const double u_n = kind == ContactKind::impact ? touch.u_n : touch.u_n_before;
+        const double gap = touch.gap + free_overlap(touch, kind, law);
         const auto normal =
-            normal_law({kind, touch.gap, u_n, w, warm.dot(touch.normal), before.is_jammed(), touch.u_n_turned}, law,
+            normal_law({kind, gap, u_n, w, warm.dot(touch.normal), before.is_jammed(), touch.u_n_turned}, law,
                 model_.solver, step_.length);
         note_overlap(touch.gap);
         const bool bears = law.restitution == 0.0 || before.is_loaded();
@@ -96,7 +97,7 @@ public:
         if (contacts_.has_rolling()) contacts_.set_rolling(k, rolling_row(touch, law, kind, warm.dot(touch.normal)));
         ++survey_.count;
         survey_.impacts += kind == ContactKind::impact;
-        if (bears) survey_.stored_energy += stored_energy(touch.gap, normal); // what an impact overlaps is no spring
+        if (bears) survey_.stored_energy += stored_energy(gap, normal); // what an impact overlaps is no spring
         return true;
     }
 
@@ -120,6 +121,16 @@ private:
     bool passes_by(const Touch& touch) const
     {
         return touch.gap > 0.0 && touch.closes >= step_.h && touch.gap + step_.h * touch.u_n_ahead < 0.0;
+    }
+
+    /// f, kept for the next step. Without restitution there are no impacts that would leave any.
+    double free_overlap(const Touch& touch, ContactKind kind, const ContactLaw& law)
+    {
+        if (law.restitution == 0.0) return 0.0;
+        const double before = carried_.touch[touch.slot].is_loaded() ? carried_.free_overlap[touch.slot] : infinity;
+        const double now = kind == ContactKind::resting ? talus::free_overlap(touch.gap, before) : 0.0;
+        carried_.free_overlap[touch.slot] = static_cast<float>(now);
+        return now;
     }
 
     RollingRow rolling_row(const Touch& touch, const ContactLaw& law, ContactKind kind, double warm_normal) const
@@ -152,7 +163,7 @@ private:
     TileContacts& contacts_;
     PackFiller* filler_;
     bool with_walls_;
-    const CarriedImpulses& carried_;
+    CarriedImpulses& carried_;
     const Model& model_;
     const StepConstants& step_;
     double inertia_factor_; ///< 0 where spheres do not turn

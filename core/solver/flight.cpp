@@ -30,16 +30,20 @@ public:
     std::vector<std::vector<std::uint32_t>> impacts; ///< by tile: its contacts between spheres that are such
 
     MeetingSurvey(const State& state, const Model& model, std::size_t tiles, double h)
-        : of(state.count()), impacts(tiles), state_(state), model_(model), h_(h), struck_(state.count(), 0)
+        : of(state.count()), impacts(tiles), state_(state), model_(model), h_(h), struck_(state.count(), 0),
+          loaded_(state.count(), 0)
     {
     }
 
+    /// Notes which spheres are struck, and which are loaded by others.
     void find_struck(const TileContacts& contacts, bool with_walls)
     {
         for (const std::size_t k : contacts.indices()) {
-            if (contacts.geometry[k].kind != ContactKind::impact) continue;
-            struck_[contacts.a(k)] = 1;
-            if (!with_walls) struck_[contacts.b(k)] = 1;
+            if (contacts.geometry[k].kind == ContactKind::impact) {
+                struck_[contacts.a(k)] = 1;
+                if (!with_walls) struck_[contacts.b(k)] = 1;
+            } else if (!with_walls && !contacts.impulse(k).isZero(0.0))
+                loaded_[contacts.a(k)] = loaded_[contacts.b(k)] = 1;
         }
     }
 
@@ -48,12 +52,12 @@ public:
         for (const std::size_t k : pistons.indices()) of[pistons.a(k)].held = true;
     }
 
-    /// Notes what struck spheres meet, and takes what waits for an impact out of the problem.
+    /// Notes what struck spheres meet, and takes what waits for an impact out of the problem, but in a bed under load.
     void survey_walls(TileContacts& walls)
     {
         for (std::size_t k = pack_size * walls.packs(); k-- > 0;) {
             if (walls.a(k) < 0 || !struck_[walls.a(k)]) continue;
-            if (walls.geometry[k].waits)
+            if (walls.geometry[k].waits && !loaded_[walls.a(k)])
                 walls.remove(k);
             else
                 of[walls.a(k)].held = true;
@@ -65,7 +69,7 @@ public:
         for (std::size_t k = pack_size * spheres.packs(); k-- > 0;) {
             const std::int32_t a = spheres.a(k), b = spheres.b(k);
             if (a < 0 || !(struck_[a] | struck_[b])) continue;
-            if (spheres.geometry[k].waits)
+            if (spheres.geometry[k].waits && !(loaded_[a] | loaded_[b]))
                 spheres.remove(k);
             else
                 note(spheres, k);
@@ -95,6 +99,7 @@ private:
     const Model& model_;
     double h_;
     std::vector<std::uint8_t> struck_; ///< by sphere
+    std::vector<std::uint8_t> loaded_; ///< by sphere: another presses it
 
     void note(const TileContacts& spheres, std::size_t k)
     {

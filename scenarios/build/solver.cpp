@@ -20,7 +20,6 @@ constexpr double column = 150.0;     ///< mean diameters; with `matched` so tall
 constexpr double heavy = 10.0;       ///< times the lightest sphere
 constexpr double very_heavy = 500.0; ///< a sphere, times the lightest: on eight of its diameters or more it may hop
 constexpr double crushing = 5e4;     ///< 37 diameters; one of 50 pressed a grain through the floor with `matched`
-constexpr double crushing_step_factor = 0.5; ///< with all of the step the grains below it overlapped by 7 % d
 constexpr double fine = 1e-3;
 constexpr double packed_share = 0.6; ///< of the room that a bed takes
 
@@ -93,6 +92,13 @@ int usual_sweeps(Stabilisation stabilisation)
     return stabilisation == Stabilisation::matched ? 2 : 3;
 }
 
+/// The load of a sphere rests on some (D/d)² grains, so a grain bears D/d of its weight, and overlaps by that times h²:
+/// with this factor by no more than below a sphere of 800 times its mass, 2 % d.
+double step_under(double ratio)
+{
+    return std::min(1.0, std::pow(800.0 / ratio, 1.0 / 6.0));
+}
+
 template <class... Numbers> std::string text(const char* format, Numbers... numbers)
 {
     char buffer[200];
@@ -104,9 +110,10 @@ std::string explain(const SolverSettings& solver, double step_factor, double dep
 {
     const std::string found = ratio >= very_heavy ? text("the heaviest sphere is %.3g times the lightest", ratio)
                                                   : text("the spheres stand %.3g diameters high", depth);
+    const std::string step = step_factor < 1.0 ? text(", %.2g of the step", step_factor) : "";
     return text("stabilisation %s%s and tolerance %g, for %s",
-        solver.stabilisation == Stabilisation::projected ? "projected" : "matched",
-        step_factor < 1.0 ? ", half the step" : "", solver.tolerance, found.c_str());
+        solver.stabilisation == Stabilisation::projected ? "projected" : "matched", step.c_str(), solver.tolerance,
+        found.c_str());
 }
 
 double tolerance(const scene::NumberOrName& value, double automatic)
@@ -172,8 +179,8 @@ SolverChoice complete_solver(SolverSettings solver, const scene::Scene& scene, c
             solver.stabilisation = Stabilisation::projected;
             if (table.min_sweeps == 0)
                 solver.min_sweeps = std::min(usual_sweeps(solver.stabilisation), solver.max_sweeps);
-            if (ratio >= crushing && scene.time.step.name == "auto") step_factor = crushing_step_factor;
         }
+        if (scene.time.step.name == "auto") step_factor = step_under(ratio);
         const bool gas = model.gravity.isZero() && model.physics.restitution;
         if (table.tolerance.name == "auto" && (ratio >= very_heavy || gas)) solver.tolerance = fine;
         if (depth >= column || ratio >= very_heavy) explanation = explain(solver, step_factor, depth, ratio);

@@ -6,6 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 using namespace talus;
 using namespace talus::test;
@@ -23,13 +25,17 @@ void require_closed_ledger(const Simulation& s)
 TEST_CASE("a flat silo of 2000 spheres discharges as fast as that of the peers", "[mass_flow]")
 {
     // LAMMPS and LIGGGHTS at two stiffnesses: 1231 to 1282 spheres a second, 0.1 to 0.4 s after the opening. The bed is
-    // shallow and the window short, hence 7 %.
-    auto s = open_scene("flat_silo", {"fill.0.count=2000", "sensor.outlet.from=0.9", "sensor.outlet.to=1.2"});
-    run_until(s, 1.2);
-    const auto flow = result(s, "outlet", "sphere_flow");
-    WARN("2000 spheres: " << flow.value << " +- " << flow.spread << " spheres/s");
-    CHECK(flow.value == Approx(1250.0).epsilon(0.07));
-    require_closed_ledger(s);
+    // shallow and the window short, hence 7 %; one bed differs from the next by 4 %.
+    std::vector<double> flows;
+    for (const auto* seed : {"seed=1", "seed=2", "seed=3", "seed=4"}) {
+        auto s = open_scene("flat_silo", {seed, "fill.0.count=2000", "sensor.outlet.from=0.9", "sensor.outlet.to=1.2"});
+        run_until(s, 1.2);
+        flows.push_back(result(s, "outlet", "sphere_flow").value);
+        require_closed_ledger(s);
+    }
+    const double mean = std::accumulate(flows.begin(), flows.end(), 0.0) / static_cast<double>(flows.size());
+    WARN("2000 spheres: " << mean << " spheres/s");
+    CHECK(mean == Approx(1250.0).epsilon(0.07));
 }
 
 TEST_CASE("a flat silo of 10 000 spheres discharges 1290 spheres a second", "[mass_flow][slow]")

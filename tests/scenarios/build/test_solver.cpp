@@ -134,6 +134,24 @@ TEST_CASE("contacts are rigid under a sphere that would press grains through the
     CHECK(solver_of(scene).pressure_scaling);
 }
 
+TEST_CASE("the step goes with the sixth root of a mass ratio above 800", "[solver_choice][step_choice]")
+{
+    // What lies below a sphere of diameter D overlaps with D/d h².
+    const auto step_under = [](double diameter) {
+        auto scene = small_scene();
+        scene.wall[0].max = Vec3(0.5, 0.5, 1.0);
+        scene.fill.push_back(scene.fill[0]);
+        scene.fill[1].region = box_region(Vec3(0.01, 0.01, 0.15), Vec3(0.49, 0.49, 0.9));
+        scene.fill[1].count = 1;
+        scene.fill[1].diameter.value = diameter;
+        return build_scene(scene).simulation.model.time_step;
+    };
+    const double usual = step_under(0.09); // 729 times
+    CHECK(step_under(0.08) == usual);
+    CHECK(step_under(0.2) == Approx(usual * std::pow(0.1, 1.0 / 6.0))); // 8000 times
+    CHECK(step_under(0.3) == Approx(step_under(0.15) / std::sqrt(2.0)));
+}
+
 TEST_CASE("the tolerance is fine where a sphere is five hundred times as heavy as another", "[solver_choice]")
 {
     const auto with_large = [](double diameter) {
