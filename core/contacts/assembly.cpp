@@ -5,8 +5,6 @@
 #include "core/contacts/tile_assembly.hpp"
 #include "core/contacts/wall_contacts.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 
 namespace talus
@@ -16,90 +14,54 @@ namespace
 
 constexpr double least_turn = 1e-9; ///< of a wall's normal in a step: less is rounding
 
-bool within_reach(double gap, double u_n_ahead, const StepConstants& step)
+StepConstants step_constants(const Model& model, const StepLength& length)
 {
-    return gap <= step.reach || gap + closing_horizon * step.h * u_n_ahead <= 0.0;
-}
-
-double inverse_inertia(const Motion& m)
-{
-    return inverse_inertia_factor * m.inverse_mass / (m.radius * m.radius);
-}
-
-PackFiller& filler_of_thread(ContactNetwork& network)
-{
-    return network.contacts.fillers[static_cast<std::size_t>(omp_get_thread_num())];
+    const double h = length.h();
+    StepConstants step{};
+    step.law = {.h = h,
+        .threshold_speed = model.solver.restitution_threshold * model.gravity.norm() * length.whole,
+        .rigid = model.solver.stabilisation == Stabilisation::projected,
+        .min_sweeps = static_cast<double>(model.solver.min_sweeps),
+        .push_out_speed = model.solver.push_out_speed,
+        .parts = static_cast<double>(length.parts),
+        .shallow_overlap = length.shallow_overlap};
+    step.reach = open_contact_reach * model.min_diameter;
+    step.horizon = closing_horizon * h;
+    step.touching = touching * model.min_diameter;
+    step.inverse_inertia = model.physics.spin ? inverse_inertia_factor : 0.0;
+    step.restitution = model.physics.restitution;
+    for (int d = 0; d < 3; ++d) step.cell_length[d] = model.periodicity.length[d];
+    step.is_periodic = model.periodicity.any();
+    return step;
 }
 
 /// So wide that two spheres of which one comes within reach of the other have balls that meet.
 ReachBall reach_ball(const State& state, std::size_t i, const StepConstants& step)
 {
     const Motion& m = state.motion[i];
-    return {state.position[i], m.radius + std::max(0.5 * step.reach, closing_horizon * step.h * m.velocity.norm())};
+    const Vec3& x = state.position[i];
+    return {{x.x(), x.y(), x.z()}, m.radius + std::max(0.5 * step.reach, step.horizon * m.velocity.norm())};
 }
 
-/// The candidates of a tile whose balls meet, and those that are loaded: few enough to look at one by one.
-template <bool periodic>
-std::vector<std::uint32_t> near_candidates(
-    const ContactNetwork& network, std::size_t tile, const Periodicity& periodicity)
-{
-    const CandidateList& list = network.list;
-    const auto first = list.pairs_of_tile[tile], last = list.pairs_of_tile[tile + 1];
-    std::vector<std::uint32_t> near(last - first + 1);
-    std::size_t count = 0;
-    for (auto k = first; k < last; ++k) {
-        const auto [a, b] = list.pairs[k];
-        const ReachBall &ball_a = network.contacts.reach_balls[a], &ball_b = network.contacts.reach_balls[b];
-        Vec3 across = ball_a.center - ball_b.center;
-        if constexpr (periodic) across = periodicity.nearest_image(across);
-        const double radii = ball_a.radius + ball_b.radius;
-        near[count] = k; // no branch: which are near is no pattern
-        count += static_cast<std::size_t>(
-            static_cast<int>(across.squaredNorm() <= radii * radii) | network.carried.pairs.touch[k].is_loaded());
-    }
-    near.resize(count);
-    return near;
-}
-
-/// @param periodic whether there is a border to reach across
-template <bool periodic>
+/// Adds the candidates of a tile whose balls meet, and those that are loaded: few enough to look at one by one.
 ContactSurvey assemble_sphere_contacts(
     ContactNetwork& network, std::size_t tile, const State& state, const Model& model, const StepConstants& step)
 {
     const CandidateList& list = network.list;
+    CarriedImpulses& carried = network.carried.pairs;
+    AssemblyRoom& room = network.contacts.room();
+    const auto first = list.pairs_of_tile[tile], last = list.pairs_of_tile[tile + 1];
+    room.near.resize(std::max<std::size_t>(room.near.size(), last - first + 1));
+    static_assert(sizeof(TouchRecord) == 1 && sizeof(IndexPair) == 2 * sizeof(std::int32_t));
+    const std::size_t count =
+        fastest_kernels().touch.find_near(reinterpret_cast<const std::int32_t*>(list.pairs.data()),
+            reinterpret_cast<const std::uint8_t*>(carried.touch.data()), first, last,
+            network.contacts.reach_balls.data(), step, room.near.data());
     TileAssembly assembly(
-        network.contacts.spheres[tile], &filler_of_thread(network), false, network.carried.pairs, state, model, step);
-    for (const std::uint32_t k : near_candidates<periodic>(network, tile, model.periodicity)) {
-        const auto [a, b] = list.pairs[k];
-        const Motion& ma = state.motion[a];
-        const Motion& mb = state.motion[b];
-        Vec3 across = state.position[a] - state.position[b];
-        if constexpr (periodic) across = model.periodicity.nearest_image(across);
-        const double radii = ma.radius + mb.radius;
-        const double distance = across.norm();
-        // Spheres with one centre are pushed apart along a fixed direction: any will do, but always the same.
-        const Vec3 normal = distance > 0.0 ? Vec3(across / distance) : Vec3::UnitZ();
-        const double u_n = normal.dot(ma.velocity - mb.velocity);
-        if (!within_reach(distance - radii, u_n, step)) {
-            network.carried.pairs.clear(k);
-            continue;
-        }
-        assembly.add(
-            {.a = a,
-                .b = b,
-                .normal = normal,
-                .gap = distance - radii,
-                .u_n = u_n,
-                .u_n_ahead = u_n, // gravity is the same for both
-                .closes = model.physics.restitution ? closing_time(across, ma.velocity - mb.velocity, radii) : 0.0,
-                .u_n_before = u_n,
-                .u_n_turned = 0.0, // they are convex: it parts them
-                .arm_scale = distance / radii,
-                .inverse_mass_sum = ma.inverse_mass + mb.inverse_mass,
-                .rolling_radius = ma.radius * mb.radius / radii,
-                .inverse_inertia_sum = model.physics.rolling ? inverse_inertia(ma) + inverse_inertia(mb) : 0.0,
-                .slot = k},
-            model.materials.between(state.material[a], state.material[b]), 0.0);
+        network.contacts.spheres[tile], Touched::spheres, carried, network.contacts, state, model, step);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t k = room.near[i];
+        assembly.add(list.pairs[k].a, list.pairs[k].b, k);
     }
     return assembly.finish();
 }
@@ -159,13 +121,14 @@ private:
         points_.clear();
         if (!wall.stands()) return;
         const Motion& m = state_.motion[pair.sphere];
-        const Vec3 ahead = m.velocity + step_.h * model_.gravity;
+        const Vec3 ahead = m.velocity + step_.law.h * model_.gravity;
         const double wall_speed = wall.moves() ? wall.fastest(Box{x, x}.grown(m.radius)) : 0.0;
-        const double reach = std::max(step_.reach, closing_horizon * step_.h * (ahead.norm() + wall_speed));
+        const double reach = std::max(step_.reach, step_.horizon * (ahead.norm() + wall_speed));
         find_wall_points(wall, network_.list.patches.data() + pair.first, pair.patches, x, m.radius + reach, points_);
         std::erase_if(points_, [&](const WallPoint& at) {
             const Vec3 wall_ahead = wall_row(wall, at, x, m.radius).velocity + wall.gain();
-            return !within_reach(at.distance - m.radius, at.normal.dot(ahead - wall_ahead), step_);
+            const double gap = at.distance - m.radius;
+            return gap > step_.reach && gap + step_.horizon * at.normal.dot(ahead - wall_ahead) > 0.0;
         });
     }
 
@@ -174,7 +137,7 @@ private:
     double turned(const PlacedWall& wall, const Motion& m, const Vec3& turn, std::uint32_t slot) const
     {
         const double angle = turn.norm();
-        const bool is_smooth = angle > least_turn && angle * m.radius <= step_.h * m.velocity.norm();
+        const bool is_smooth = angle > least_turn && angle * m.radius <= step_.law.h * m.velocity.norm();
         const bool was_borne = !network_.carried.walls.impulse[slot].isZero(0.0);
         return !wall.moves() && is_smooth && was_borne ? turn.dot(m.velocity) : 0.0;
     }
@@ -188,10 +151,10 @@ private:
         const double gap = at.distance - m.radius;
         const WallRow row = wall_row(wall, at, x, m.radius);
         const double u_n = n.dot(m.velocity - row.velocity);
-        const double u_n_ahead = u_n + step_.h * n.dot(model_.gravity) - n.dot(wall.gain());
+        const double u_n_ahead = u_n + step_.law.h * n.dot(model_.gravity) - n.dot(wall.gain());
         const double wall_inverse_mass = wall.is_piston() ? 1.0 / model_.pistons[wall.wall().piston].mass : 0.0;
-        return assembly.add({.a = pair.sphere,
-                                .b = pair.wall,
+        return assembly.add({.sphere = pair.sphere,
+                                .wall = pair.wall,
                                 .normal = n,
                                 .gap = gap,
                                 .u_n = u_n,
@@ -199,20 +162,17 @@ private:
                                 .closes = u_n_ahead < 0.0 ? -gap / u_n_ahead : infinity,
                                 .u_n_before = n.dot(m.velocity - velocity_before(wall, at, x, m.radius)),
                                 .u_n_turned = turned(wall, m, turn, slot),
-                                .arm_scale = 1.0,
                                 .inverse_mass_sum = m.inverse_mass + wall_inverse_mass,
-                                .rolling_radius = m.radius,
-                                .inverse_inertia_sum = inverse_inertia(m),
                                 .slot = slot,
-                                .wall = row},
-            model_.materials.between(state_.material[pair.sphere], wall.wall().material),
-            n.dot(state_.position[pair.sphere]) - gap + way_ahead(wall, n, row));
+                                .wall_level = n.dot(state_.position[pair.sphere]) - gap + way_ahead(wall, n, row),
+                                .row = row},
+            model_.materials.between(state_.material[pair.sphere], wall.wall().material));
     }
 
     /// By how much the wall's level rises in the step, where that is known beforehand [m].
     double way_ahead(const PlacedWall& wall, const Vec3& normal, const WallRow& row) const
     {
-        return wall.is_piston() ? 0.0 : step_.h * normal.dot(row.velocity);
+        return wall.is_piston() ? 0.0 : step_.law.h * normal.dot(row.velocity);
     }
 };
 
@@ -220,7 +180,7 @@ ContactSurvey assemble_wall_contacts(ContactNetwork& network, std::size_t tile, 
     const std::vector<PlacedWall>& walls, const StepConstants& step)
 {
     TileAssembly assembly(
-        network.contacts.walls[tile], &filler_of_thread(network), true, network.carried.walls, state, model, step);
+        network.contacts.walls[tile], Touched::walls, network.carried.walls, network.contacts, state, model, step);
     WallDetection detection(network, state, model, walls, step);
     CandidateList& list = network.list;
     for (auto p = list.wall_pairs_of_tile[tile]; p < list.wall_pairs_of_tile[tile + 1]; ++p) {
@@ -234,7 +194,8 @@ ContactSurvey assemble_wall_contacts(ContactNetwork& network, std::size_t tile, 
 ContactSurvey assemble_piston_contacts(ContactNetwork& network, const State& state, const Model& model,
     const std::vector<PlacedWall>& walls, const StepConstants& step)
 {
-    TileAssembly assembly(network.contacts.pistons, nullptr, true, network.carried.walls, state, model, step);
+    TileAssembly assembly(
+        network.contacts.pistons, Touched::pistons, network.carried.walls, network.contacts, state, model, step);
     WallDetection detection(network, state, model, walls, step);
     for (auto& pair : network.list.wall_pairs) {
         const PlacedWall& wall = walls[pair.wall];
@@ -272,10 +233,8 @@ void ContactSurvey::then(const ContactSurvey& next)
 ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, const Model& model,
     const StepLength& length, const std::vector<PlacedWall>& walls)
 {
-    const StepConstants step(model, length);
-    network.contacts.resize(network.list, model.physics);
-    const auto assemble_spheres =
-        model.periodicity.any() ? assemble_sphere_contacts<true> : assemble_sphere_contacts<false>;
+    const StepConstants step = step_constants(model, length);
+    network.contacts.resize(network.list, model.physics, state.count());
     const auto tiles = static_cast<std::int64_t>(network.list.tiles.count());
     std::vector<ContactSurvey> surveys(network.list.tiles.count());
     network.contacts.reach_balls.resize(state.count());
@@ -284,7 +243,7 @@ ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, con
 #pragma omp parallel for schedule(dynamic) if (tiles > 16)
     for (std::int64_t t = 0; t < tiles; ++t) {
         const auto tile = static_cast<std::size_t>(t);
-        surveys[tile] = assemble_spheres(network, tile, state, model, step);
+        surveys[tile] = assemble_sphere_contacts(network, tile, state, model, step);
         surveys[tile] += assemble_wall_contacts(network, tile, state, model, walls, step);
     }
     ContactSurvey all;

@@ -26,7 +26,7 @@ struct ContactSurvey {
 };
 
 /// Turns the candidates that touch, or will within this step and a half, into the contacts of this step's problem:
-/// normal, law (stabilisation.hpp), effective masses, and the impulse carried over, put back into the new tangent plane
+/// normal, law (packs/law.hpp), effective masses, and the impulse carried over, put back into the new tangent plane
 /// and cone. Reads v⁽⁰⁾: gravity has not been added yet. Tiles in parallel, pistons after them.
 /// @param walls as they stand now, with their velocity over the step
 ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, const Model& model, const StepLength& step,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/vector.hpp"
+#include "core/packs/contact_pack.hpp"
 
 #include <cstdint>
 
@@ -40,9 +41,6 @@ struct WallRow {
     Vec3 velocity = Vec3::Zero(); ///< of its material at x − r n [m/s]
     Vec3 spin = Vec3::Zero();     ///< [rad/s]
 };
-
-/// Law that a contact follows in this step: METHOD (4).
-enum class ContactKind : std::uint8_t { resting, open, impact };
 
 /// What one step knows of a contact besides its solve; read by the position pass, the report and the frames.
 struct ContactGeometry {

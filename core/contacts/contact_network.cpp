@@ -6,7 +6,7 @@
 namespace talus
 {
 
-void StepContacts::resize(const CandidateList& list, const ModelledPhysics& physics)
+void StepContacts::resize(const CandidateList& list, const ModelledPhysics& physics, std::size_t sphere_count)
 {
     spheres.resize(list.tiles.count());
     walls.resize(list.tiles.count());
@@ -14,7 +14,15 @@ void StepContacts::resize(const CandidateList& list, const ModelledPhysics& phys
     for (TileContacts& tile : walls) tile.clear(physics.rolling, physics.moving_walls);
     pistons.clear(physics.rolling, false);
     piston_arms.clear();
-    fillers.resize(static_cast<std::size_t>(omp_get_max_threads()));
+    reach_balls.resize(sphere_count);
+    struck.assign(sphere_count, 0);
+    loaded.assign(sphere_count, 0);
+    rooms.resize(static_cast<std::size_t>(omp_get_max_threads()));
+}
+
+AssemblyRoom& StepContacts::room()
+{
+    return rooms[static_cast<std::size_t>(omp_get_thread_num())];
 }
 
 void StepContacts::clear()

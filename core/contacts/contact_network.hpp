@@ -3,16 +3,18 @@
 
 #include "core/candidates/candidate_list.hpp"
 #include "core/contacts/pack_filler.hpp"
+#include "core/packs/touch_pack.hpp"
 
 #include <vector>
 
 namespace talus
 {
 
-/// What a sphere can touch in this step meets this ball.
-struct ReachBall {
-    Vec3 center;
-    double radius;
+/// What a thread needs to assemble contacts.
+struct AssemblyRoom {
+    PackFiller filler;
+    TouchPack touch = {};
+    std::vector<std::uint32_t> near; ///< candidates of a tile
 };
 
 /// The contacts of one step; scratch, made anew in every step.
@@ -21,11 +23,15 @@ struct StepContacts {
     std::vector<TileContacts> walls;    ///< by tile; without those with pistons …
     TileContacts pistons;               ///< … which one thread takes after the tiles, one by one
     std::vector<Vec3> piston_arms;      ///< by contact: from the centre of the piston to where it is [m]
-    std::vector<PackFiller> fillers;    ///< by thread
+    std::vector<AssemblyRoom> rooms;    ///< by thread
     std::vector<ReachBall> reach_balls; ///< by sphere
+    std::vector<std::uint8_t> struck;   ///< by sphere: 1 where it has an impact
+    std::vector<std::uint8_t> loaded;   ///< by sphere: 1 where another has pressed it in the step before
 
+    /// That of the thread that asks.
+    AssemblyRoom& room();
     /// Makes room for the tiles of the list.
-    void resize(const CandidateList& list, const ModelledPhysics& physics);
+    void resize(const CandidateList& list, const ModelledPhysics& physics, std::size_t sphere_count);
     /// Forgets them, where spheres have been renumbered since.
     void clear();
 };

@@ -1,148 +1,189 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/candidates/candidate_search.hpp"
 #include "core/contacts/contact_network.hpp"
-#include "core/contacts/law.hpp"
 #include "core/contacts/pack_filler.hpp"
+#include "core/packs/kernels.hpp"
 #include "core/world/state.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 namespace talus
 {
 
-inline constexpr double touching = 1e-9; ///< overlap of spheres laid side by side, for rounding [smallest diameters]
-
-/// Numbers that all contacts of a step share.
-struct StepConstants {
-    StepLength length;
-    double h;               ///< of the length
-    double reach;           ///< of open contacts [m]
-    double threshold_speed; ///< slowest impact: that of the whole step [m/s]
-
-    StepConstants(const Model& model, const StepLength& step)
-        : length(step), h(step.h()), reach(open_contact_reach * model.min_diameter),
-          threshold_speed(model.solver.restitution_threshold * model.gravity.norm() * step.h() * step.parts)
-    {
-    }
-};
-
-/// Geometry and motion of a contact, as detection found them.
-struct Touch {
-    std::int32_t a, b;
+/// A touch of a sphere and a wall, as detection found it: fields as in TouchPack.
+struct WallTouch {
+    std::int32_t sphere, wall;
     Vec3 normal;
-    double gap;
-    double u_n;       ///< of v⁽⁰⁾ [m/s]
-    double u_n_ahead; ///< of v⁽¹⁾ [m/s]
-    double closes;    ///< when the gap does so, with v⁽¹⁾ [s]; used where there is restitution
-    double u_n_before; ///< of v⁽⁰⁾ against the velocity that the wall had then: 0 where a sphere goes with it [m/s]
-    double u_n_turned;          ///< what the turn of the normal since the step before has added to u_n [m/s]
-    double arm_scale;           ///< s
-    double inverse_mass_sum;    ///< W
-    double rolling_radius;      ///< R*
-    double inverse_inertia_sum; ///< 1/I_a + 1/I_b [1/(kg m²)]
+    double gap, u_n, u_n_ahead, closes, u_n_before, u_n_turned;
+    double inverse_mass_sum; ///< W
     std::uint32_t slot;
-    WallRow wall = {}; ///< at walls that move
+    double wall_level; ///< of ContactGeometry
+    WallRow row = {};  ///< at walls that move
 };
 
-/// The impulse carried into a contact: turned into the new frame and cut back to the cone, nothing for an impact.
-inline Vec3 warm_impulse(const Vec3& carried, const Vec3& normal, double friction)
-{
-    const double along = carried.dot(normal), normal_impulse = std::max(0.0, along);
-    Vec3 tangent = carried - along * normal;
-    const double largest = friction * normal_impulse, size_squared = tangent.squaredNorm();
-    if (size_squared > largest * largest) tangent *= largest / std::sqrt(size_squared);
-    return normal_impulse * normal + tangent;
-}
+/// What a tile's spheres touch.
+enum class Touched { spheres, walls, pistons };
 
-/// Writes contacts of one kind and tile.
+/// Makes the contacts of a tile, eight at a time: with each other, or with walls. Those with pistons, of all tiles, are
+/// made one by one.
 class TileAssembly
 {
 public:
-    /// @param filler finds them places in packs; null: one after the other
-    TileAssembly(TileContacts& contacts, PackFiller* filler, bool with_walls, CarriedImpulses& carried,
+    TileAssembly(TileContacts& contacts, Touched touched, CarriedImpulses& carried, StepContacts& scratch,
         const State& state, const Model& model, const StepConstants& step)
-        : contacts_(contacts), filler_(filler), with_walls_(with_walls), carried_(carried), model_(model), step_(step),
-          inertia_factor_(model.physics.spin ? inverse_inertia_factor : 0.0)
+        : contacts_(contacts), with_walls_(touched != Touched::spheres), one_by_one_(touched == Touched::pistons),
+          carried_(carried), scratch_(scratch), filler_(scratch.room().filler), touch_(scratch.room().touch),
+          state_(state), model_(model), step_(step)
     {
-        if (filler) filler->begin(contacts, state.count());
+        filler_.begin(contacts, state.count());
     }
 
-    bool add(const Touch& touch, const ContactLaw& law, double wall_level)
+    /// Two spheres that may touch.
+    void add(std::int32_t a, std::int32_t b, std::uint32_t slot)
     {
-        const TouchRecord& before = carried_.touch[touch.slot];
-        const auto kind =
-            contact_kind(touch.gap, touch.u_n, touch.closes, before.is_loaded(), law, step_.h, step_.threshold_speed);
-        const Vec3 warm = kind == ContactKind::impact
-                              ? Vec3::Zero().eval()
-                              : warm_impulse(carried_.impulse[touch.slot], touch.normal, law.friction);
-        const double w = touch.inverse_mass_sum;
-        const double u_n = kind == ContactKind::impact ? touch.u_n : touch.u_n_before;
-        const double gap = touch.gap + free_overlap(touch, kind, law);
-        const auto normal =
-            normal_law({kind, gap, u_n, w, warm.dot(touch.normal), before.is_jammed(), touch.u_n_turned}, law,
-                model_.solver, step_.length);
-        note_overlap(touch.gap);
-        const bool bears = law.restitution == 0.0 || before.is_loaded();
-        const bool is_free = kind != ContactKind::impact && !bears && !step_.length.is_split();
-        const bool waits = is_free && stays_apart(touch);
-        if (is_free && (passes_by(touch) || (waits && !filler_))) return false;
+        prepare(touch_.count++, a, b, slot, model_.materials.between(state_.material[a], state_.material[b]));
+        if (touch_.count == pack_size) make();
+    }
 
-        const std::size_t k = filler_ ? filler_->place(touch.a, with_walls_ ? -1 : touch.b) : contacts_.append();
-        contacts_.set(k, {touch.a, touch.b, touch.normal, normal.target, warm},
-            {touch.arm_scale, law.friction, normal.compliance, 1.0 / (w + normal.compliance),
-                1.0 / (w * (1.0 + inertia_factor_ * touch.arm_scale * touch.arm_scale)), w},
-            {touch.gap, wall_level, touch.slot, kind, waits});
-        if (contacts_.has_moving_walls()) contacts_.set_wall(k, touch.wall);
-        if (contacts_.has_rolling()) contacts_.set_rolling(k, rolling_row(touch, law, kind, warm.dot(touch.normal)));
-        ++survey_.count;
-        survey_.impacts += kind == ContactKind::impact;
-        if (bears) survey_.stored_energy += stored_energy(gap, normal); // what an impact overlaps is no spring
-        return true;
+    /// Returns whether it has become a contact, where that is known at once.
+    bool add(const WallTouch& at, const ContactLaw& law)
+    {
+        const int lane = touch_.count++;
+        prepare(lane, at.sphere, at.wall, at.slot, law);
+        for (int d = 0; d < 3; ++d) touch_.contact.normal[d][lane] = at.normal[d];
+        touch_.contact.arm_scale[lane] = 1.0;
+        touch_.contact.inverse_mass_sum[lane] = at.inverse_mass_sum;
+        touch_.gap[lane] = at.gap;
+        touch_.u_n[lane] = at.u_n;
+        touch_.u_n_ahead[lane] = at.u_n_ahead;
+        touch_.closes[lane] = at.closes;
+        touch_.u_n_before[lane] = at.u_n_before;
+        touch_.u_n_turned[lane] = at.u_n_turned;
+        wall_level_[lane] = at.wall_level;
+        wall_row_[lane] = at.row;
+        const std::size_t before = survey_.count;
+        if (touch_.count == pack_size || one_by_one_) make();
+        return survey_.count > before;
     }
 
     ContactSurvey finish()
     {
-        if (filler_) filler_->end();
+        make();
+        filler_.end();
         return survey_;
     }
 
 private:
-    /// Whether it does not close by itself, or opens. What an impact elsewhere closes within this step is an impact of
-    /// its own in the next one: such a contact waits beside one. Spheres that touch without a load count as apart. In a
-    /// split step nothing waits: walls must hold what is thrown at them.
-    bool stays_apart(const Touch& touch) const
+    TileContacts& contacts_;
+    const bool with_walls_, one_by_one_;
+    CarriedImpulses& carried_;
+    StepContacts& scratch_;
+    PackFiller& filler_;
+    TouchPack& touch_;
+    const State& state_;
+    const Model& model_;
+    const StepConstants& step_;
+    const TouchKernel& kernel_ = fastest_kernels().touch;
+    ContactSurvey survey_;
+    std::uint32_t slot_[pack_size];
+    double wall_level_[pack_size];
+    WallRow wall_row_[pack_size];
+
+    /// What does not depend on where and how fast they are.
+    void prepare(int lane, std::int32_t a, std::int32_t b, std::uint32_t slot, const ContactLaw& law)
     {
-        if (touch.gap > 0.0) return touch.closes >= step_.h;
-        return touch.gap + step_.h * touch.u_n_ahead >= -touching * model_.min_diameter;
+        touch_.contact.a[lane] = a;
+        touch_.contact.b[lane] = b;
+        touch_.contact.friction[lane] = law.friction;
+        touch_.restitution[lane] = law.restitution;
+        touch_.stiffness[lane] = law.stiffness;
+        for (int d = 0; d < 3; ++d) touch_.carried[d][lane] = carried_.impulse[slot][d];
+        touch_.free_overlap[lane] = carried_.free_overlap[slot];
+        touch_.loaded[lane] = -static_cast<std::int64_t>(carried_.touch[slot].is_loaded());
+        touch_.jammed[lane] = -static_cast<std::int64_t>(carried_.touch[slot].is_jammed());
+        slot_[lane] = slot;
     }
 
-    /// Spheres that miss each other: the law of their gap along the normal of now would brake them.
-    bool passes_by(const Touch& touch) const
+    void make()
     {
-        return touch.gap > 0.0 && touch.closes >= step_.h && touch.gap + step_.h * touch.u_n_ahead < 0.0;
+        if (touch_.count == 0) return;
+        ContactPack& contact = touch_.contact;
+        for (int lane = touch_.count; lane < pack_size; ++lane) { // of some spheres that are there
+            contact.a[lane] = contact.a[0];
+            contact.b[lane] = contact.b[0];
+        }
+        if (with_walls_)
+            kernel_.make_contacts(touch_, step_);
+        else
+            kernel_.touch_spheres(
+                touch_, scratch_.reach_balls.data(), reinterpret_cast<const double*>(state_.motion.data()), step_);
+        for (int lane = 0; lane < touch_.count; ++lane) take(lane);
+        touch_.count = 0;
     }
 
-    /// f, kept for the next step. Without restitution there are no impacts that would leave any.
-    double free_overlap(const Touch& touch, ContactKind kind, const ContactLaw& law)
+    /// Into the problem, unless it is left out.
+    void take(int lane)
     {
-        if (law.restitution == 0.0) return 0.0;
-        const double before = carried_.touch[touch.slot].is_loaded() ? carried_.free_overlap[touch.slot] : infinity;
-        const double now = kind == ContactKind::resting ? talus::free_overlap(touch.gap, before) : 0.0;
-        carried_.free_overlap[touch.slot] = static_cast<float>(now);
-        return now;
+        const std::uint32_t slot = slot_[lane];
+        if (!with_walls_ && !touch_.within_reach[lane]) return carried_.clear(slot);
+        const double gap = touch_.gap[lane];
+        note_overlap(gap);
+        carried_.free_overlap[slot] = static_cast<float>(touch_.free_overlap[lane]);
+        const bool waits = touch_.waits[lane];
+        if (touch_.passes_by[lane] || (waits && one_by_one_)) return;
+
+        const std::int32_t a = touch_.contact.a[lane], b = touch_.contact.b[lane];
+        const std::size_t k = one_by_one_ ? contacts_.append() : filler_.place(a, with_walls_ ? -1 : b);
+        const auto kind = touch_.impact[lane] ? ContactKind::impact
+                          : touch_.open[lane] ? ContactKind::open
+                                              : ContactKind::resting;
+        contacts_.copy(k, touch_.contact, lane, {gap, wall_level_[lane], slot, kind, waits});
+        if (contacts_.has_moving_walls()) contacts_.set_wall(k, wall_row_[lane]);
+        if (contacts_.has_rolling()) contacts_.set_rolling(k, rolling_row(k, slot, kind));
+        if (kind == ContactKind::impact) mark(scratch_.struck, a, b);
+        if (touch_.carries[lane] && !with_walls_) mark(scratch_.loaded, a, b);
+        ++survey_.count;
+        survey_.impacts += kind == ContactKind::impact;
+        survey_.stored_energy += touch_.stored_energy[lane];
     }
 
-    RollingRow rolling_row(const Touch& touch, const ContactLaw& law, ContactKind kind, double warm_normal) const
+    /// Tiles that share a sphere may do so at once.
+    void mark(std::vector<std::uint8_t>& spheres, std::int32_t a, std::int32_t b) const
     {
-        RollingRow row{Vec3::Zero(), law.rolling_friction * touch.rolling_radius, 1.0 / touch.inverse_inertia_sum};
+        std::atomic_ref(spheres[a]).store(1, std::memory_order_relaxed);
+        if (!with_walls_) std::atomic_ref(spheres[b]).store(1, std::memory_order_relaxed);
+    }
+
+    RollingRow rolling_row(std::size_t k, std::uint32_t slot, ContactKind kind) const
+    {
+        const Motion& a = state_.motion[contacts_.a(k)];
+        double radius = a.radius, inertia = inverse_inertia(a);
+        const ContactLaw* law = nullptr;
+        if (with_walls_)
+            law = &model_.materials.between(state_.material[contacts_.a(k)], model_.walls[contacts_.b(k)].material);
+        else {
+            const Motion& b = state_.motion[contacts_.b(k)];
+            radius = a.radius * b.radius / (a.radius + b.radius);
+            inertia += inverse_inertia(b);
+            law = &model_.materials.between(state_.material[contacts_.a(k)], state_.material[contacts_.b(k)]);
+        }
+        RollingRow row{Vec3::Zero(), law->rolling_friction * radius, 1.0 / inertia};
         if (kind == ContactKind::impact) return row;
-        const Vec3& carried = carried_.rolling_impulse[touch.slot];
-        row.impulse = carried - carried.dot(touch.normal) * touch.normal;
-        const double largest = row.reach * warm_normal;
+        const Vec3 normal = contacts_.normal(k);
+        const Vec3& carried = carried_.rolling_impulse[slot];
+        row.impulse = carried - carried.dot(normal) * normal;
+        const double largest = row.reach * contacts_.impulse(k).dot(normal);
         const double size = row.impulse.norm();
         if (size > largest) row.impulse *= largest / size;
         return row;
+    }
+
+    static double inverse_inertia(const Motion& m)
+    {
+        return inverse_inertia_factor * m.inverse_mass / (m.radius * m.radius);
     }
 
     void note_overlap(double gap)
@@ -152,22 +193,6 @@ private:
         survey_.worst_overlap = std::max(survey_.worst_overlap, -gap);
         survey_.overlap_sum -= gap;
     }
-
-    /// With k = 4 Υ / (Σ_n h²), the stiffness that the compliance stands for [J].
-    double stored_energy(double gap, const NormalLaw& law) const
-    {
-        if (gap >= 0.0 || law.compliance == 0.0 || model_.solver.stabilisation != Stabilisation::matched) return 0.0;
-        return 2.0 * upsilon / (law.compliance * step_.h * step_.h) * gap * gap * law.feedback_share;
-    }
-
-    TileContacts& contacts_;
-    PackFiller* filler_;
-    bool with_walls_;
-    CarriedImpulses& carried_;
-    const Model& model_;
-    const StepConstants& step_;
-    double inertia_factor_; ///< 0 where spheres do not turn
-    ContactSurvey survey_;
 };
 
 } // namespace talus

@@ -49,6 +49,26 @@ void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms
     geometry[k] = own;
 }
 
+void TileContacts::copy(std::size_t k, const ContactPack& from, int lane, const ContactGeometry& own)
+{
+    ContactPack& pack = packs_[k / pack_size];
+    const std::size_t to = k % pack_size;
+    pack.a[to] = from.a[lane];
+    pack.b[to] = from.b[lane];
+    for (int d = 0; d < 3; ++d) {
+        pack.normal[d][to] = from.normal[d][lane];
+        pack.impulse[d][to] = from.impulse[d][lane];
+    }
+    pack.target[to] = from.target[lane];
+    pack.arm_scale[to] = from.arm_scale[lane];
+    pack.friction[to] = from.friction[lane];
+    pack.compliance[to] = from.compliance[lane];
+    pack.normal_mass[to] = from.normal_mass[lane];
+    pack.tangent_mass[to] = from.tangent_mass[lane];
+    pack.inverse_mass_sum[to] = from.inverse_mass_sum[lane];
+    geometry[k] = own;
+}
+
 void TileContacts::remove(std::size_t k)
 {
     std::size_t last = k - k % pack_size + pack_size - 1;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/contacts/contact.hpp"
-#include "core/contacts/contact_pack.hpp"
+#include "core/packs/contact_pack.hpp"
 
 #include <ranges>
 #include <vector>
@@ -23,6 +23,8 @@ public:
     /// Adds a contact behind the last one, whatever spheres it shares: for contacts that are not swept by packs.
     std::size_t append();
     void set(std::size_t k, const Contact& contact, const ContactTerms& terms, const ContactGeometry& own);
+    /// Contact k becomes what stands in a lane of another pack.
+    void copy(std::size_t k, const ContactPack& from, int lane, const ContactGeometry& own);
     /// Takes contact k away; the last one of its pack takes its place.
     void remove(std::size_t k);
     void set_rolling(std::size_t k, const RollingRow& row);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/flight.hpp"
 
-#include "core/contacts/law.hpp"
+#include "core/packs/law.hpp"
 #include "core/solver/tile_crew.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace talus
 {
@@ -29,22 +30,10 @@ public:
     std::vector<Meetings> of;                        ///< by sphere
     std::vector<std::vector<std::uint32_t>> impacts; ///< by tile: its contacts between spheres that are such
 
-    MeetingSurvey(const State& state, const Model& model, std::size_t tiles, double h)
-        : of(state.count()), impacts(tiles), state_(state), model_(model), h_(h), struck_(state.count(), 0),
-          loaded_(state.count(), 0)
+    MeetingSurvey(const StepContacts& contacts, const State& state, const Model& model, double h)
+        : of(state.count()), impacts(contacts.spheres.size()), struck_(contacts.struck), loaded_(contacts.loaded),
+          state_(state), model_(model), h_(h)
     {
-    }
-
-    /// Notes which spheres are struck, and which are loaded by others.
-    void find_struck(const TileContacts& contacts, bool with_walls)
-    {
-        for (const std::size_t k : contacts.indices()) {
-            if (contacts.geometry[k].kind == ContactKind::impact) {
-                struck_[contacts.a(k)] = 1;
-                if (!with_walls) struck_[contacts.b(k)] = 1;
-            } else if (!with_walls && !contacts.impulse(k).isZero(0.0))
-                loaded_[contacts.a(k)] = loaded_[contacts.b(k)] = 1;
-        }
     }
 
     void hold_at_pistons(const TileContacts& pistons)
@@ -75,7 +64,8 @@ public:
                 note(spheres, k);
         }
         for (const std::size_t k : spheres.indices())
-            if (spheres.geometry[k].kind == ContactKind::impact) impacts[tile].push_back(static_cast<std::uint32_t>(k));
+            if (struck_[spheres.a(k)] && spheres.geometry[k].kind == ContactKind::impact)
+                impacts[tile].push_back(static_cast<std::uint32_t>(k));
     }
 
     /// Keeps those that meet one other that meets none but them. Moved by one instant they keep their potential energy,
@@ -95,11 +85,10 @@ public:
     }
 
 private:
+    const std::vector<std::uint8_t>&struck_, &loaded_; ///< by sphere
     const State& state_;
     const Model& model_;
     double h_;
-    std::vector<std::uint8_t> struck_; ///< by sphere
-    std::vector<std::uint8_t> loaded_; ///< by sphere: another presses it
 
     void note(const TileContacts& spheres, std::size_t k)
     {
@@ -118,8 +107,10 @@ private:
     double instant_of(const TileContacts& spheres, std::size_t k) const
     {
         const Motion &a = state_.motion[spheres.a(k)], &b = state_.motion[spheres.b(k)];
-        const double closes =
-            closing_time(across(spheres.a(k), spheres.b(k)), a.velocity - b.velocity, a.radius + b.radius);
+        const Vec3 apart = across(spheres.a(k), spheres.b(k)), velocity = a.velocity - b.velocity;
+        const double radii = a.radius + b.radius;
+        const double closes = closing_time<double>(-apart.dot(velocity), velocity.squaredNorm(),
+            apart.squaredNorm() - radii * radii, [](double square) { return std::sqrt(square); });
         return std::clamp(closes, -h_, h_);
     }
 };
@@ -149,14 +140,9 @@ void place(TileContacts& spheres, std::size_t k, const MeetingSurvey& meetings, 
 std::vector<Flight> place_impacts(ContactNetwork& network, const State& state, const Model& model, double h)
 {
     StepContacts& contacts = network.contacts;
-    MeetingSurvey meetings(state, model, contacts.spheres.size(), h);
+    MeetingSurvey meetings(contacts, state, model, h);
     meetings.hold_at_pistons(contacts.pistons);
-    meetings.find_struck(contacts.pistons, true);
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
-        crew.color_by_color([&](std::size_t tile) {
-            meetings.find_struck(contacts.spheres[tile], false);
-            meetings.find_struck(contacts.walls[tile], true);
-        });
         crew.color_by_color([&](std::size_t tile) {
             meetings.survey_spheres(contacts.spheres[tile], tile);
             meetings.survey_walls(contacts.walls[tile]);

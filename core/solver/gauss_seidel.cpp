@@ -29,7 +29,7 @@ struct TilePasses {
     double* motion;
 
     TilePasses(ContactNetwork& network, std::vector<Motion>& spheres, const ModelledPhysics& physics)
-        : kernel(sweep_kernels().of_rows[row_variant(physics)]), contacts(network.contacts),
+        : kernel(fastest_kernels().sweep[row_variant(physics)]), contacts(network.contacts),
           motion(reinterpret_cast<double*>(spheres.data()))
     {
         static_assert(sizeof(Motion) == 8 * sizeof(double) && std::is_standard_layout_v<Motion>);

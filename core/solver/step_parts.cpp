@@ -15,7 +15,7 @@ using multibody::Law;
 using multibody::Problem;
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, 6>; ///< of a body with six degrees of freedom
 
-/// τ/h of the guides: critical damping, as for the contacts (upsilon of stabilisation.hpp).
+/// τ/h of the guides: critical damping, as for the contacts (upsilon of law.hpp).
 constexpr double guide_relaxation = 2.0;
 
 /// The rolling axis of a row, a tangent.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/contacts/tile_contacts.hpp"
-#include "core/solver/sweep_kernels.hpp"
+#include "core/packs/kernels.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "core/candidates/candidate_search.hpp"
 #include "core/candidates/curve_order.hpp"
-#include "core/contacts/law.hpp"
+#include "core/packs/law.hpp"
 #include "core/solver/flight.hpp"
 #include "core/solver/piston_group.hpp"
 #include "core/solver/position_projection.hpp"

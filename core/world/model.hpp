@@ -13,7 +13,7 @@
 namespace talus
 {
 
-/// How overlap is kept small (stabilisation.hpp has the laws).
+/// How overlap is kept small (packs/law.hpp has the laws).
 enum class Stabilisation { matched, projected };
 
 struct SolverSettings {

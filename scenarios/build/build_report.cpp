@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/build/build_report.hpp"
 
-#include "core/contacts/law.hpp"
+#include "core/packs/law.hpp"
 
 #include <algorithm>
 #include <cstdio>

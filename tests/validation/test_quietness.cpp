@@ -95,7 +95,8 @@ TEST_CASE("what matched cannot hold still is held still by default", "[quietness
     // With `matched` and tolerance 1e-2 the floor's force of the column swings by a quarter for seconds, and that of a
     // ball of 8000 grains' mass by half; one of 125 000 presses grains through the floor.
     const auto* scene = GENERATE("column", "ball_on_grains", "ball_in_a_box");
-    const auto quiet = settle_and_watch(scene, "auto", 0.5, 0.3);
+    const auto* seed = GENERATE("seed=1", "seed=2", "seed=3");
+    const auto quiet = settle_and_watch(scene, "auto", 0.5, 0.3, {seed});
     CHECK(quiet.force_rms < 0.05);
     CHECK(quiet.worst_overlap < 0.05);
 }

@@ -18,7 +18,7 @@ struct FallingSphere {
     {
         model.time_step = 1e-4;
         model.materials = {{{"grain", 2500.0}}, {{0.5, restitution, 0.0, infinity}}};
-        model.physics = {true, false, restitution > 0.0};
+        model.physics = {.friction = true, .restitution = restitution > 0.0};
         model.min_diameter = model.max_diameter = model.mean_diameter = 0.01;
         model.world = Box{Vec3::Constant(-1), Vec3::Constant(1)};
         model.walls.push_back({"floor", Plane{}, 0});

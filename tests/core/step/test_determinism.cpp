@@ -16,7 +16,7 @@ namespace
 State agitated_box(Model& model, std::uint64_t seed)
 {
     model.materials = {{{"grain", 2500.0}}, {{0.4, 0.3, 0.05, infinity}}};
-    model.physics = {true, true, true};
+    model.physics = {.friction = true, .spin = true, .rolling = true, .restitution = true};
     model.time_step = 2e-4;
     model.min_diameter = 0.008;
     model.max_diameter = 0.012;

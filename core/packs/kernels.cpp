@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/solver/sweep_kernels.hpp"
+#include "core/packs/kernels.hpp"
 
 namespace talus
 {
 
-std::vector<const SweepKernels*> usable_sweep_kernels()
+std::vector<const Kernels*> usable_kernels()
 {
-    std::vector<const SweepKernels*> usable;
+    std::vector<const Kernels*> usable;
 #ifdef __x86_64__
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) usable.push_back(&avx512_kernels);
     if (__builtin_cpu_supports("avx2")) usable.push_back(&avx2_kernels);
@@ -15,9 +15,9 @@ std::vector<const SweepKernels*> usable_sweep_kernels()
     return usable;
 }
 
-const SweepKernels& sweep_kernels()
+const Kernels& fastest_kernels()
 {
-    static const SweepKernels& fastest = *usable_sweep_kernels().front();
+    static const Kernels& fastest = *usable_kernels().front();
     return fastest;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/sweep_sums.hpp"
-#include "core/contacts/contact_pack.hpp"
+#include "core/packs/touch_pack.hpp"
 
 #include <array>
 #include <vector>
@@ -22,7 +22,7 @@ template <bool with_friction, bool with_spin, bool with_rolling, bool with_movin
 inline constexpr std::size_t row_variants = 8;
 
 /// The passes over the contacts of one tile, those between spheres first, for one instruction set and one `Rows`.
-/// Whichever the set, the bits of the results are the same.
+/// Whichever it is, the bits of the results are the same.
 /// @param motion of all spheres, as 8 numbers each: v, 1/m, a, r
 struct SweepKernel {
     using Sweep = SweepSums (*)(const PackSpan& spheres, const PackSpan& walls, double* motion, double relaxation);
@@ -33,18 +33,33 @@ struct SweepKernel {
     Pass warm_start = nullptr; ///< v ← v + M⁻¹ Gᵀ λ; the sum of sizes is that of these λ
 };
 
-/// The kernels for one instruction set, by Rows::index.
-struct SweepKernels {
-    const char* instructions = "";
-    std::array<SweepKernel, row_variants> of_rows;
+/// What makes contacts of touches.
+struct TouchKernel {
+    /// Lists the candidates from `first` on, before `last`, whose balls meet or that were loaded. Returns how many.
+    /// @param pairs of spheres, by candidate; @param loaded by candidate, 0 for no; @param near has room for all
+    std::size_t (*find_near)(const std::int32_t* pairs, const std::uint8_t* loaded, std::uint32_t first,
+        std::uint32_t last, const ReachBall* balls, const StepConstants& step, std::uint32_t* near) = nullptr;
+    /// Finds how the spheres a and b of these touches lie to each other, and makes their contacts.
+    /// @param motion as for sweeps
+    void (*touch_spheres)(
+        TouchPack& touch, const ReachBall* balls, const double* motion, const StepConstants& step) = nullptr;
+    /// Makes contacts of touches that have been found.
+    void (*make_contacts)(TouchPack& touch, const StepConstants& step) = nullptr;
 };
 
-extern const SweepKernels plain_kernels, avx2_kernels, avx512_kernels;
+/// The kernels for one instruction set, the sweep's by Rows::index.
+struct Kernels {
+    const char* instructions = "";
+    std::array<SweepKernel, row_variants> sweep;
+    TouchKernel touch;
+};
+
+extern const Kernels plain_kernels, avx2_kernels, avx512_kernels;
 
 /// Those that this processor can run, the fastest first.
-std::vector<const SweepKernels*> usable_sweep_kernels();
+std::vector<const Kernels*> usable_kernels();
 
 /// The fastest.
-const SweepKernels& sweep_kernels();
+const Kernels& fastest_kernels();
 
 } // namespace talus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/packs/kernels.hpp"
 #include "core/solver/gauss_seidel.hpp"
-#include "core/solver/sweep_kernels.hpp"
 #include "core/solver/whole_contact.hpp"
 #include "tests/support/contacts.hpp"
 #include "tests/support/world.hpp"
@@ -55,10 +55,10 @@ struct Result {
     }
 };
 
-Result swept_by(const SweepKernels& kernels, World world)
+Result swept_by(const Kernels& kernels, World world)
 {
     const std::size_t variant = with_rows(world.model.physics, [](auto rows) { return decltype(rows)::index; });
-    const SweepKernel& kernel = kernels.of_rows[variant];
+    const SweepKernel& kernel = kernels.sweep[variant];
     auto* motion = reinterpret_cast<double*>(world.state.motion.data());
     auto& contacts = world.network.contacts;
     Result result;
@@ -87,7 +87,7 @@ Result swept_by(const SweepKernels& kernels, World world)
 
 TEST_CASE("all instruction sets give the same bits, whatever a scene models", "[packed_sweep]")
 {
-    const auto usable = usable_sweep_kernels();
+    const auto usable = usable_kernels();
     REQUIRE(usable.back() == &plain_kernels);
     const auto [law, spin] = GENERATE(std::pair(ContactLaw{}, false), std::pair(ContactLaw{.friction = 0.4}, false),
         std::pair(ContactLaw{.friction = 0.4, .restitution = 0.3}, true),
@@ -98,7 +98,7 @@ TEST_CASE("all instruction sets give the same bits, whatever a scene models", "[
     assemble_contacts(world.network, world.state, world.model, {world.model.time_step}, world.placed_walls());
     const Result plain = swept_by(plain_kernels, world);
     REQUIRE(plain.numbers.size() > 2000);
-    for (const SweepKernels* kernels : usable) {
+    for (const Kernels* kernels : usable) {
         CAPTURE(kernels->instructions);
         CHECK(swept_by(*kernels, world) == plain);
     }

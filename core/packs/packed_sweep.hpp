@@ -1,82 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/solver/sweep_kernels.hpp"
-
-#include <cmath>
-#include <cstring>
-#include <utility>
+#include "core/packs/kernels.hpp"
+#include "core/packs/numbers.hpp"
 
 /// The sweep on packs, METHOD (6) to (8), written once for registers of 2, 4 and 8 numbers: `width` contacts at a time.
-///
-/// Each file that includes this is compiled for an instruction set of its own. Therefore nothing here may be an inline
-/// function that another file could share: all are templates of the width, which belongs to one file only, and nothing
-/// of Eigen or of the standard library is called.
-namespace talus::packed_sweep
+namespace talus::packs
 {
 
 constexpr double inverse_inertia = 2.5; ///< times m r²
 constexpr std::int32_t motion_size = 8; ///< numbers of a sphere's motion
-
-template <int width> struct Register {
-    typedef double Numbers __attribute__((vector_size(width * sizeof(double)), may_alias));
-};
-/// One number for each of `width` contacts.
-template <int width> using Numbers = typename Register<width>::Numbers;
-
-template <int width> [[gnu::always_inline]] inline Numbers<width> load(const double* from)
-{
-    Numbers<width> numbers;
-    __builtin_memcpy(&numbers, from, sizeof numbers);
-    return numbers;
-}
-
-template <int width> [[gnu::always_inline]] inline void store(double* to, const Numbers<width>& numbers)
-{
-    __builtin_memcpy(to, &numbers, sizeof numbers);
-}
-
-template <int width> struct Vector {
-    Numbers<width> x, y, z;
-
-    [[gnu::always_inline]] static Vector load(const double (&rows)[3][pack_size], int first)
-    {
-        return {packed_sweep::load<width>(rows[0] + first), packed_sweep::load<width>(rows[1] + first),
-            packed_sweep::load<width>(rows[2] + first)};
-    }
-    [[gnu::always_inline]] void store(double (&rows)[3][pack_size], int first) const
-    {
-        packed_sweep::store<width>(rows[0] + first, x);
-        packed_sweep::store<width>(rows[1] + first, y);
-        packed_sweep::store<width>(rows[2] + first, z);
-    }
-    [[gnu::always_inline]] Vector operator+(const Vector& o) const { return {x + o.x, y + o.y, z + o.z}; }
-    [[gnu::always_inline]] Vector operator-(const Vector& o) const { return {x - o.x, y - o.y, z - o.z}; }
-    [[gnu::always_inline]] Vector operator*(const Numbers<width>& f) const { return {f * x, f * y, f * z}; }
-    [[gnu::always_inline]] Numbers<width> dot(const Vector& o) const { return x * o.x + y * o.y + z * o.z; }
-    [[gnu::always_inline]] Vector cross(const Vector& o) const
-    {
-        return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
-    }
-};
-
-/// Two registers, of which `stride` numbers in turn change places.
-template <int width, int stride, int... i>
-[[gnu::always_inline]] inline void exchange(Numbers<width>& low, Numbers<width>& high, std::integer_sequence<int, i...>)
-{
-    const Numbers<width> a = low, b = high;
-    low = __builtin_shufflevector(a, b, (i & stride ? width + i - stride : i)...);
-    high = __builtin_shufflevector(a, b, (i & stride ? width + i : i + stride)...);
-}
-
-/// Rows become columns.
-template <int width, int stride = width / 2> [[gnu::always_inline]] inline void transpose(Numbers<width>* rows)
-{
-    for (int row = 0; row < width; ++row)
-        if (!(row & stride))
-            exchange<width, stride>(rows[row], rows[row + stride], std::make_integer_sequence<int, width>{});
-    if constexpr (stride > 1) transpose<width, stride / 2>(rows);
-}
 
 /// Of a lane that is not in use.
 template <int width> constexpr double no_motion[motion_size] = {0, 0, 0, 0, 0, 0, 0, 1};
@@ -91,10 +24,7 @@ template <int width, bool full> struct Spheres {
         for (int lane = 0; lane < width; ++lane)
             from[lane] =
                 full || sphere[lane] >= 0 ? motion + std::int64_t{motion_size} * sphere[lane] : no_motion<width>;
-        for (int block = 0; block < motion_size; block += width) {
-            for (int lane = 0; lane < width; ++lane) number[block + lane] = load<width>(from[lane] + block);
-            transpose<width>(number + block);
-        }
+        packs::gather<width>(number, from);
     }
     [[gnu::always_inline]] void scatter(const std::int32_t* sphere, double* motion)
     {
@@ -144,12 +74,8 @@ template <int width> [[gnu::always_inline]] inline void cut_to_disk(Vector<width
 {
     const Numbers<width> size_squared = vector.dot(vector);
     const auto outside = size_squared > radius * radius;
-    bool any = false;
-    for (int lane = 0; lane < width; ++lane) any |= outside[lane] != 0;
-    if (!any) return;
-    Numbers<width> size;
-    for (int lane = 0; lane < width; ++lane) size[lane] = __builtin_sqrt(size_squared[lane]);
-    const Numbers<width> one = size_squared * 0.0 + 1.0;
+    if (!any<width>(outside)) return;
+    const Numbers<width> size = root<width>(size_squared), one = size_squared * 0.0 + 1.0;
     vector = vector * (outside ? radius / size : one);
 }
 
@@ -336,24 +262,18 @@ template <int width, class R> SweepSums warm_start(const PackSpan& spheres, cons
     return sums.total();
 }
 
-template <int width, class R> constexpr void add_kernel(SweepKernels& kernels)
+template <int width, class R> constexpr SweepKernel sweep()
 {
-    kernels.of_rows[R::index] = {relax<width, R, true>, measure<width, R>, warm_start<width, R>};
+    return {relax<width, R, true>, measure<width, R>, warm_start<width, R>};
 }
 
-template <int width> constexpr SweepKernels kernels(const char* instructions)
+/// By Rows::index.
+template <int width> constexpr std::array<SweepKernel, row_variants> sweeps()
 {
-    SweepKernels all;
-    all.instructions = instructions;
-    add_kernel<width, Rows<false, false, false, false>>(all);
-    add_kernel<width, Rows<false, false, false, true>>(all);
-    add_kernel<width, Rows<true, false, false, false>>(all);
-    add_kernel<width, Rows<true, false, false, true>>(all);
-    add_kernel<width, Rows<true, true, false, false>>(all);
-    add_kernel<width, Rows<true, true, false, true>>(all);
-    add_kernel<width, Rows<true, true, true, false>>(all);
-    add_kernel<width, Rows<true, true, true, true>>(all);
-    return all;
+    return {sweep<width, Rows<false, false, false, false>>(), sweep<width, Rows<false, false, false, true>>(),
+        sweep<width, Rows<true, false, false, false>>(), sweep<width, Rows<true, false, false, true>>(),
+        sweep<width, Rows<true, true, false, false>>(), sweep<width, Rows<true, true, false, true>>(),
+        sweep<width, Rows<true, true, true, false>>(), sweep<width, Rows<true, true, true, true>>()};
 }
 
-} // namespace talus::packed_sweep
+} // namespace talus::packs

@@ -10,6 +10,9 @@ namespace talus
 /// Lanes of a pack: contacts that a wide register solves at once.
 inline constexpr int pack_size = 8;
 
+/// Law that a contact follows in this step: METHOD (4).
+enum class ContactKind : std::uint8_t { resting, open, impact };
+
 /// Eight contacts, no two of which share a sphere, so that their order does not matter: all that a sweep streams, lane
 /// beside lane, 112 B a contact. They are filled from lane 0 on; a lane that is not in use has a = b = −1, and zeros.
 struct alignas(64) ContactPack {

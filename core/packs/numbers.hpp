@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/packs/contact_pack.hpp"
+
+#include <utility>
+
+/// Numbers in registers of 2, 4 or 8, `width` of them, and vectors of such.
+///
+/// Files that include this are compiled for an instruction set of their own. Therefore nothing that they use may be an
+/// inline function that another file could share: all are templates of the width, which belongs to one file only, and
+/// nothing of Eigen or of the standard library is called.
+namespace talus::packs
+{
+
+template <int width> struct Register {
+    typedef double Numbers __attribute__((vector_size(width * sizeof(double)), may_alias));
+    typedef std::int64_t Flags __attribute__((vector_size(width * sizeof(double)), may_alias));
+};
+/// One number for each of `width` contacts.
+template <int width> using Numbers = typename Register<width>::Numbers;
+/// −1 for true, 0 for false.
+template <int width> using Flags = typename Register<width>::Flags;
+
+template <int width> [[gnu::always_inline]] inline Numbers<width> load(const double* from)
+{
+    Numbers<width> numbers;
+    __builtin_memcpy(&numbers, from, sizeof numbers);
+    return numbers;
+}
+
+template <int width> [[gnu::always_inline]] inline Flags<width> load_flags(const std::int64_t* from)
+{
+    Flags<width> flags;
+    __builtin_memcpy(&flags, from, sizeof flags);
+    return flags;
+}
+
+template <int width> [[gnu::always_inline]] inline void store(double* to, const Numbers<width>& numbers)
+{
+    __builtin_memcpy(to, &numbers, sizeof numbers);
+}
+
+template <int width> [[gnu::always_inline]] inline void store(std::int64_t* to, const Flags<width>& flags)
+{
+    __builtin_memcpy(to, &flags, sizeof flags);
+}
+
+template <int width> [[gnu::always_inline]] inline Numbers<width> root(const Numbers<width>& square)
+{
+    Numbers<width> numbers;
+    for (int lane = 0; lane < width; ++lane) numbers[lane] = __builtin_sqrt(square[lane]);
+    return numbers;
+}
+
+template <int width> [[gnu::always_inline]] inline bool any(const Flags<width>& flags)
+{
+    bool is = false;
+    for (int lane = 0; lane < width; ++lane) is |= flags[lane] != 0;
+    return is;
+}
+
+template <int width> struct Vector {
+    Numbers<width> x, y, z;
+
+    [[gnu::always_inline]] static Vector load(const double (&rows)[3][pack_size], int first)
+    {
+        return {packs::load<width>(rows[0] + first), packs::load<width>(rows[1] + first),
+            packs::load<width>(rows[2] + first)};
+    }
+    [[gnu::always_inline]] void store(double (&rows)[3][pack_size], int first) const
+    {
+        packs::store<width>(rows[0] + first, x);
+        packs::store<width>(rows[1] + first, y);
+        packs::store<width>(rows[2] + first, z);
+    }
+    [[gnu::always_inline]] Vector operator+(const Vector& o) const { return {x + o.x, y + o.y, z + o.z}; }
+    [[gnu::always_inline]] Vector operator-(const Vector& o) const { return {x - o.x, y - o.y, z - o.z}; }
+    [[gnu::always_inline]] Vector operator*(const Numbers<width>& f) const { return {f * x, f * y, f * z}; }
+    [[gnu::always_inline]] Numbers<width> dot(const Vector& o) const { return x * o.x + y * o.y + z * o.z; }
+    [[gnu::always_inline]] Vector cross(const Vector& o) const
+    {
+        return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
+    }
+};
+
+/// Two registers, of which `stride` numbers in turn change places.
+template <int width, int stride, int... i>
+[[gnu::always_inline]] inline void exchange(Numbers<width>& low, Numbers<width>& high, std::integer_sequence<int, i...>)
+{
+    const Numbers<width> a = low, b = high;
+    low = __builtin_shufflevector(a, b, (i & stride ? width + i - stride : i)...);
+    high = __builtin_shufflevector(a, b, (i & stride ? width + i : i + stride)...);
+}
+
+/// Rows become columns.
+template <int width, int stride = width / 2> [[gnu::always_inline]] inline void transpose(Numbers<width>* rows)
+{
+    for (int row = 0; row < width; ++row)
+        if (!(row & stride))
+            exchange<width, stride>(rows[row], rows[row + stride], std::make_integer_sequence<int, width>{});
+    if constexpr (stride > 1) transpose<width, stride / 2>(rows);
+}
+
+/// Records of eight numbers, number beside number.
+template <int width> [[gnu::always_inline]] inline void gather(Numbers<width>* numbers, const double* const* records)
+{
+    for (int block = 0; block < pack_size; block += width) {
+        for (int lane = 0; lane < width; ++lane) numbers[block + lane] = load<width>(records[lane] + block);
+        transpose<width>(numbers + block);
+    }
+}
+
+} // namespace talus::packs

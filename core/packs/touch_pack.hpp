@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/packs/contact_pack.hpp"
+#include "core/packs/law.hpp"
+
+namespace talus
+{
+
+inline constexpr double touching = 1e-9; ///< overlap of spheres laid side by side, for rounding [smallest diameters]
+
+/// Numbers that all contacts of a step share.
+struct StepConstants {
+    LawOfStep law;
+    double reach;           ///< of open contacts [m]
+    double horizon;         ///< how far ahead a gap is looked at [s]
+    double touching;        ///< overlap of spheres that touch [m]
+    double inverse_inertia; ///< 5/2; 0 where spheres do not turn
+    bool restitution;       ///< there is some
+    double cell_length[3];  ///< of periodic axes [m], else infinite
+    bool is_periodic;
+};
+
+/// Up to eight touches on their way to contacts: what detection has found, lane beside lane, and what the laws make of
+/// it. The contact itself, with the numbers of its solve, stands in `contact`; lanes from `count` on hold anything.
+struct alignas(64) TouchPack {
+    ContactPack contact; ///< found: a, b, normal, arm_scale, friction, inverse_mass_sum; made: the rest
+    int count = 0;
+
+    double gap[pack_size];
+    double u_n[pack_size];       ///< of v⁽⁰⁾ [m/s]
+    double u_n_ahead[pack_size]; ///< of v⁽¹⁾ [m/s]
+    double closes[pack_size];    ///< when the gap does so, with v⁽¹⁾ [s]; used where there is restitution
+    double u_n_before[pack_size]; ///< of v⁽⁰⁾ against the wall's velocity then: 0 where a sphere goes with it [m/s]
+    double u_n_turned[pack_size];   ///< what the turn of the normal since the step before has added to u_n [m/s]
+    double restitution[pack_size];  ///< e
+    double stiffness[pack_size];    ///< k [N/m]
+    double carried[3][pack_size];   ///< impulse of the step before [N s] …
+    double free_overlap[pack_size]; ///< … its f, and then that of this step [m]
+    std::int64_t loaded[pack_size]; ///< TouchRecord: −1 for yes, 0 for no, as in all below
+    std::int64_t jammed[pack_size];
+
+    std::int64_t within_reach[pack_size]; ///< found, between spheres
+    std::int64_t impact[pack_size];       ///< made: its kind …
+    std::int64_t open[pack_size];
+    std::int64_t carries[pack_size];   ///< … it has an impulse from the step before
+    std::int64_t waits[pack_size];     ///< … it is left out of the problem where one of its spheres has an impact
+    std::int64_t passes_by[pack_size]; ///< … it is left out
+    double stored_energy[pack_size];   ///< in its spring [J]
+};
+
+/// What a sphere can touch in this step meets this ball.
+struct ReachBall {
+    double center[3];
+    double radius;
+};
+
+} // namespace talus
