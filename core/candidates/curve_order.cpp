@@ -13,14 +13,14 @@ namespace talus
 
 std::vector<std::int32_t> curve_order(const std::vector<Vec3>& points)
 {
-    using Kernel = CGAL::Simple_cartesian<double>;
-    std::vector<Kernel::Point_3> copies;
+    using Cartesian = CGAL::Simple_cartesian<double>;
+    std::vector<Cartesian::Point_3> copies;
     copies.reserve(points.size());
     for (const auto& x : points) copies.emplace_back(x[0], x[1], x[2]);
 
     std::vector<std::size_t> along(points.size());
     std::iota(along.begin(), along.end(), std::size_t{0});
-    using Traits = CGAL::Spatial_sort_traits_adapter_3<Kernel, CGAL::Pointer_property_map<Kernel::Point_3>::type>;
+    using Traits = CGAL::Spatial_sort_traits_adapter_3<Cartesian, CGAL::Pointer_property_map<Cartesian::Point_3>::type>;
     CGAL::hilbert_sort(along.begin(), along.end(), Traits(CGAL::make_property_map(copies)));
 
     std::vector<std::int32_t> order(points.size());

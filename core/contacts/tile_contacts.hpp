@@ -4,11 +4,65 @@
 #include "core/contacts/contact.hpp"
 #include "core/packs/contact_pack.hpp"
 
-#include <ranges>
+#include <iterator>
 #include <vector>
 
 namespace talus
 {
+
+/// The lanes of packs that hold a contact.
+class LanesInUse
+{
+public:
+    class Iterator
+    {
+    public:
+        using difference_type = std::ptrdiff_t;
+        using value_type = std::size_t;
+        using pointer = const std::size_t*;
+        using reference = std::size_t;
+        using iterator_category = std::forward_iterator_tag;
+
+        Iterator() = default;
+        Iterator(const ContactPack* packs, std::size_t lane, std::size_t end) : packs_(packs), lane_(lane), end_(end)
+        {
+            skip();
+        }
+        std::size_t operator*() const { return lane_; }
+        Iterator& operator++()
+        {
+            ++lane_;
+            skip();
+            return *this;
+        }
+        Iterator operator++(int)
+        {
+            const Iterator before = *this;
+            ++*this;
+            return before;
+        }
+        bool operator==(const Iterator& other) const { return lane_ == other.lane_; }
+
+    private:
+        const ContactPack* packs_ = nullptr;
+        std::size_t lane_ = 0, end_ = 0;
+
+        /// To the next pack, where the lanes that are left are empty.
+        void skip()
+        {
+            while (lane_ < end_ && packs_[lane_ / pack_size].a[lane_ % pack_size] < 0)
+                lane_ += pack_size - lane_ % pack_size;
+        }
+    };
+
+    LanesInUse(const ContactPack* packs, std::size_t count) : packs_(packs), end_(pack_size * count) {}
+    Iterator begin() const { return {packs_, 0, end_}; }
+    Iterator end() const { return {packs_, end_, end_}; }
+
+private:
+    const ContactPack* packs_;
+    std::size_t end_;
+};
 
 /// The contacts of one kind in one tile, in packs. Contact k is lane k mod 8 of pack k / 8; not all lanes are in use.
 class TileContacts
@@ -42,12 +96,12 @@ public:
     bool has_rolling() const { return with_rolling_; }
     bool has_moving_walls() const { return with_moving_walls_; }
     /// The indices of the contacts, in the order in which they are swept.
-    auto indices() const
+    LanesInUse indices() const { return {packs_.data(), packs_.size()}; }
+    std::size_t count() const
     {
-        return std::views::iota(std::size_t{0}, pack_size * packs_.size()) |
-               std::views::filter([this](std::size_t k) { return packs_[k / pack_size].a[k % pack_size] >= 0; });
+        const LanesInUse all = indices();
+        return static_cast<std::size_t>(std::distance(all.begin(), all.end()));
     }
-    std::size_t count() const { return static_cast<std::size_t>(std::ranges::distance(indices())); }
     std::int32_t a(std::size_t k) const { return packs_[k / pack_size].a[k % pack_size]; }
     std::int32_t b(std::size_t k) const { return packs_[k / pack_size].b[k % pack_size]; }
     Vec3 normal(std::size_t k) const { return get(packs_[k / pack_size].normal, k % pack_size); }

@@ -141,7 +141,7 @@ template <class N>
     const N impact = -event.restitution * event.u_n;
     const N open = step.rigid ? -event.gap / step.h + turned_back<N>(event) : -event.gap / step.h;
     return {event.impact ? impact : (event.open ? open : resting.target),
-        event.impact | event.open ? N{} : resting.compliance, resting.feedback_share};
+        (event.impact | event.open) ? N{} : resting.compliance, resting.feedback_share};
 }
 
 /// When two spheres that move so touch: infinite if never, negative if they overlap and approach [s].
@@ -152,7 +152,7 @@ template <class N, class Root>
 {
     const N square = approach * approach - speed_squared * apart;
     const N closes = apart / (approach + root_of(larger<N>(N{}, square)));
-    return (approach > 0.0) & (square >= 0.0) ? closes : N{} + __builtin_inf();
+    return ((approach > 0.0) & (square >= 0.0)) ? closes : N{} + __builtin_inf();
 }
 
 /// Whether a contact is an impact in this step.

@@ -153,6 +153,7 @@ template <int width>
 template <class N>
 [[gnu::always_inline]] inline N stored_energy(const N& gap, const NormalLaw<N>& law, const StepConstants& step)
 {
+    if (step.law.rigid) return N{};
     const auto is_spring = (gap < 0.0) & (law.compliance > 0.0);
     const N compliance = is_spring ? law.compliance : N{} + 1.0;
     const N energy = 2.0 * upsilon / (compliance * step.law.h * step.law.h) * gap * gap * law.feedback_share;
@@ -199,7 +200,7 @@ template <int width>
     const N friction = number(contact.friction);
     const Vector<width> warm = warm_impulse<width>(Vector<width>::load(touch.carried, first), normal, friction, impact);
     const N left = free_overlap<N>(gap, number(touch.free_overlap), loaded);
-    const N unsprung = rests & (restitution > 0.0) ? left : none;
+    const N unsprung = (rests & (restitution > 0.0)) ? left : none;
     const N spring = gap + unsprung;
     const auto law = normal_law<N>(
         {impact, is_open, spring, impact ? u_n : number(touch.u_n_before), w, warm.dot(normal), restitution,
@@ -218,7 +219,7 @@ template <int width>
     store<width>(touch.carries + first, warm.dot(normal) > 0.0);
 
     const F bears = (restitution == 0.0) | loaded; // what an impact overlaps is no spring
-    store<width>(touch.stored_energy + first, bears && !step.law.rigid ? stored_energy<N>(spring, law, step) : none);
+    store<width>(touch.stored_energy + first, bears ? stored_energy<N>(spring, law, step) : none);
     leave_out<width>(touch, first, closes, (!impact) & (!bears), step);
 }
 
