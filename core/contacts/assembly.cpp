@@ -12,6 +12,7 @@ namespace talus
 namespace
 {
 
+constexpr double touching = 1e-9;   ///< overlap of spheres laid side by side, for rounding [smallest diameters]
 constexpr double least_turn = 1e-9; ///< of a wall's normal in a step: less is rounding
 
 StepConstants step_constants(const Model& model, const StepLength& length)

@@ -7,8 +7,6 @@
 namespace talus
 {
 
-inline constexpr double touching = 1e-9; ///< overlap of spheres laid side by side, for rounding [smallest diameters]
-
 /// Numbers that all contacts of a step share.
 struct StepConstants {
     LawOfStep law;
