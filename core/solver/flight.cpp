@@ -46,7 +46,7 @@ public:
     {
         for (std::size_t k = pack_size * walls.packs(); k-- > 0;) {
             if (walls.a(k) < 0 || !struck_[walls.a(k)]) continue;
-            if (walls.geometry[k].waits && !loaded_[walls.a(k)])
+            if (walls.geometry[k].waits)
                 walls.remove(k);
             else
                 of[walls.a(k)].held = true;
@@ -58,7 +58,7 @@ public:
         for (std::size_t k = pack_size * spheres.packs(); k-- > 0;) {
             const std::int32_t a = spheres.a(k), b = spheres.b(k);
             if (a < 0 || !(struck_[a] | struck_[b])) continue;
-            if (spheres.geometry[k].waits && !(loaded_[a] | loaded_[b]))
+            if (spheres.geometry[k].waits && !(loaded_[a] & loaded_[b]))
                 spheres.remove(k);
             else
                 note(spheres, k);
