@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/candidates/candidate_search.hpp"
 #include "core/contacts/contact_network.hpp"
 #include "core/contacts/pack_filler.hpp"
 #include "core/packs/kernels.hpp"

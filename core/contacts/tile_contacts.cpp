@@ -73,7 +73,7 @@ void TileContacts::remove(std::size_t k)
 {
     std::size_t last = k - k % pack_size + pack_size - 1;
     while (a(last) < 0) --last;
-    set(k, contact(last), terms(last), geometry[last]);
+    copy(k, packs_[last / pack_size], static_cast<int>(last % pack_size), geometry[last]);
     set(last, {.a = -1, .b = -1}, {}, {});
     if (with_rolling_) {
         set_rolling(k, rolling(last));

@@ -19,8 +19,8 @@ inline constexpr double sigma_per_sweep = 0.2;
 /// Share of an overlap that one position pass of `projected` removes: that of the note's step, 4Υ.
 inline constexpr double projected_share = 4.0 * upsilon;
 
-/// What remains in a step of an overlap that is no spring. A pile that is poured gains a tenth of what it gains with 0;
-/// with 0.9 beds are deeper.
+/// What remains in a step of an overlap that is no spring. With less a pile that is poured gains energy; with 0.9 its
+/// beads overlap more.
 inline constexpr double free_overlap_kept = 0.7;
 
 /// What the laws of all contacts of a step share.

@@ -24,6 +24,18 @@ scene::Scene tube(double depth)
     return scene;
 }
 
+/// The small scene in a wide box, with one large sphere besides.
+scene::Scene with_large(double diameter)
+{
+    auto scene = small_scene();
+    scene.wall[0].max = Vec3(0.5, 0.5, 1.0);
+    scene.fill.push_back(scene.fill[0]);
+    scene.fill[1].region = box_region(Vec3(0.01, 0.01, 0.15), Vec3(0.49, 0.49, 0.9));
+    scene.fill[1].count = 1;
+    scene.fill[1].diameter.value = diameter;
+    return scene;
+}
+
 SolverSettings solver_of(const scene::Scene& scene)
 {
     return build_scene(scene).simulation.model.solver;
@@ -120,14 +132,8 @@ TEST_CASE("contacts of tall columns are rigid where nothing flows", "[solver_cho
 
 TEST_CASE("contacts are rigid under a sphere that would press grains through the floor", "[solver_choice]")
 {
-    auto scene = small_scene();
-    scene.wall[0].max = Vec3(0.5, 0.5, 1.0);
-    scene.fill.push_back(scene.fill[0]);
-    scene.fill[1].region = box_region(Vec3(0.01, 0.01, 0.15), Vec3(0.49, 0.49, 0.9));
-    scene.fill[1].count = 1;
-    scene.fill[1].diameter.value = 0.368; // 49 836 times
-    CHECK(solver_of(scene).stabilisation == Stabilisation::matched);
-    scene.fill[1].diameter.value = 0.369; // 50 243 times
+    CHECK(solver_of(with_large(0.368)).stabilisation == Stabilisation::matched); // 49 836 times
+    const auto scene = with_large(0.369);                                        // 50 243 times
     CHECK(solver_of(scene).stabilisation == Stabilisation::projected);
     CHECK(solver_of(scene).min_sweeps == 3);
     CHECK(solver_of(scene).tolerance == 1e-3);
@@ -138,13 +144,7 @@ TEST_CASE("the step goes with the sixth root of a mass ratio above 800", "[solve
 {
     // What lies below a sphere of diameter D overlaps with D/d h².
     const auto step_under = [](double diameter) {
-        auto scene = small_scene();
-        scene.wall[0].max = Vec3(0.5, 0.5, 1.0);
-        scene.fill.push_back(scene.fill[0]);
-        scene.fill[1].region = box_region(Vec3(0.01, 0.01, 0.15), Vec3(0.49, 0.49, 0.9));
-        scene.fill[1].count = 1;
-        scene.fill[1].diameter.value = diameter;
-        return build_scene(scene).simulation.model.time_step;
+        return build_scene(with_large(diameter)).simulation.model.time_step;
     };
     const double usual = step_under(0.09); // 729 times
     CHECK(step_under(0.08) == usual);
@@ -154,15 +154,6 @@ TEST_CASE("the step goes with the sixth root of a mass ratio above 800", "[solve
 
 TEST_CASE("the tolerance is fine where a sphere is five hundred times as heavy as another", "[solver_choice]")
 {
-    const auto with_large = [](double diameter) {
-        auto scene = small_scene();
-        scene.wall[0].max = Vec3(0.2, 0.2, 0.4);
-        scene.fill.push_back(scene.fill[0]);
-        scene.fill[1].region = box_region(Vec3(0.01, 0.01, 0.15), Vec3(0.19, 0.19, 0.35));
-        scene.fill[1].count = 1;
-        scene.fill[1].diameter.value = diameter;
-        return scene;
-    };
     CHECK(solver_of(with_large(0.079)).tolerance == 1e-2); // 493 times
     auto scene = with_large(0.08);                         // 512 times
     const auto [simulation, report] = build_scene(scene);
