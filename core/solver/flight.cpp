@@ -46,7 +46,7 @@ public:
     {
         for (std::size_t k = pack_size * walls.packs(); k-- > 0;) {
             if (walls.a(k) < 0 || !struck_[walls.a(k)]) continue;
-            if (walls.geometry[k].waits)
+            if (walls.geometry[k].waits && !(is_rigid() && loaded_[walls.a(k)]))
                 walls.remove(k);
             else
                 of[walls.a(k)].held = true;
@@ -58,7 +58,8 @@ public:
         for (std::size_t k = pack_size * spheres.packs(); k-- > 0;) {
             const std::int32_t a = spheres.a(k), b = spheres.b(k);
             if (a < 0 || !(struck_[a] | struck_[b])) continue;
-            if (spheres.geometry[k].waits && !(loaded_[a] & loaded_[b]))
+            const bool in_loaded_bed = is_rigid() ? loaded_[a] | loaded_[b] : loaded_[a] & loaded_[b];
+            if (spheres.geometry[k].waits && !in_loaded_bed)
                 spheres.remove(k);
             else
                 note(spheres, k);
@@ -89,6 +90,8 @@ private:
     const State& state_;
     const Model& model_;
     double h_;
+
+    bool is_rigid() const { return model_.solver.stabilisation == Stabilisation::projected; }
 
     void note(const TileContacts& spheres, std::size_t k)
     {

@@ -43,8 +43,8 @@ Simulation tilted(double angle)
 TEST_CASE("a shaken box carries the weight of its beads on average", "[scenes]")
 {
     // What the box gives the beads beyond their weight is their change of momentum, which is nothing over many periods.
-    auto s = open_scene("vibrated_bed", {"fill.0.count=600", "sensor.box.to=1.3"});
-    run_until(s, 1.3); // 20 periods of 0.04 s after 0.5 s
+    auto s = open_scene("vibrated_bed", {"fill.0.count=600", "sensor.box.to=2.9"});
+    run_until(s, 2.9); // 60 periods of 0.04 s after 0.5 s
     const auto force = result(s, "box", "force_z");
     WARN("vibrated bed: " << force.value << " +- " << force.spread << " N, weight " << weight(s) << " N");
     CHECK(-force.value == Approx(weight(s)).epsilon(0.01));
