@@ -12,6 +12,7 @@ namespace
 {
 
 constexpr double sliding_share = 0.999; ///< of the largest friction: from there on a contact slides
+constexpr std::size_t most_networks = 10;
 
 /// λ·y, in all and without the rows that slide: their bias, a tangential velocity that friction cannot stop, says
 /// nothing of the pressure.
@@ -118,7 +119,61 @@ Loads find_loads(
     return loads;
 }
 
+/// Which bodies hang together (union–find).
+class Connected
+{
+public:
+    explicit Connected(std::size_t bodies) : parent_(bodies)
+    {
+        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    }
+    std::size_t first_of(std::size_t body)
+    {
+        while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
+        return body;
+    }
+    void connect(std::size_t a, std::size_t b)
+    {
+        const std::size_t first_a = first_of(a), first_b = first_of(b);
+        parent_[std::max(first_a, first_b)] = std::min(first_a, first_b);
+    }
+
+private:
+    std::vector<std::size_t> parent_; ///< none after the body
+};
+
 } // namespace
+
+std::vector<std::vector<std::uint32_t>> networks_of(const Loads& loads, std::size_t spheres, std::size_t pistons)
+{
+    Connected bodies(spheres + pistons);
+    for (const Load& load : loads.list) {
+        if (load.b >= 0) bodies.connect(static_cast<std::size_t>(load.a), static_cast<std::size_t>(load.b));
+        if (load.piston >= 0)
+            bodies.connect(static_cast<std::size_t>(load.a), spheres + static_cast<std::size_t>(load.piston));
+    }
+    std::vector<std::size_t> size(spheres + pistons, 0);
+    for (const Load& load : loads.list) ++size[bodies.first_of(static_cast<std::size_t>(load.a))];
+    std::vector<std::size_t> large;
+    for (std::size_t body = 0; body < size.size(); ++body)
+        if (size[body] > 0 && most_networks * size[body] >= loads.list.size()) large.push_back(body);
+    std::ranges::stable_sort(large, [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
+    std::vector<std::size_t> number(spheres + pistons, 0);
+    for (std::size_t n = 0; n < large.size(); ++n) number[large[n]] = n;
+    std::vector<std::vector<std::uint32_t>> networks(std::max<std::size_t>(1, large.size()));
+    for (std::uint32_t k = 0; k < loads.list.size(); ++k)
+        networks[number[bodies.first_of(static_cast<std::size_t>(loads.list[k].a))]].push_back(k);
+    return networks;
+}
+
+Loads part_of(const Loads& loads, const std::vector<std::uint32_t>& places)
+{
+    Loads part;
+    for (const std::uint32_t k : places) part.list.push_back(loads.list[k]);
+    const auto at_pistons = std::ranges::lower_bound(places, loads.first_of_pistons());
+    part.first = {static_cast<std::size_t>(at_pistons - places.begin())};
+    return part;
+}
 
 Loads find_loads(
     ContactNetwork& network, const PistonGroup& pistons, const State& state, const Model& model, const HatGrid& grid)

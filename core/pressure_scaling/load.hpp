@@ -34,6 +34,13 @@ struct Loads {
     std::size_t first_of_pistons() const { return first.back(); }
 };
 
+/// Loads whose spheres and pistons hang together, as places in the list, each in its order; the largest network first.
+/// What is less than a tenth of all is counted to the largest.
+std::vector<std::vector<std::uint32_t>> networks_of(const Loads& loads, std::size_t spheres, std::size_t pistons);
+
+/// Some of them.
+Loads part_of(const Loads& loads, const std::vector<std::uint32_t>& places);
+
 /// Whether the contact carries anything.
 inline bool is_loaded(const TileContacts& contacts, std::size_t k)
 {

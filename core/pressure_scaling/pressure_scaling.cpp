@@ -59,6 +59,24 @@ std::vector<double> growth_of_loads(
     return result;
 }
 
+/// By how much impulses grow.
+struct Growth {
+    std::vector<double> of_load; ///< share; empty where the energy would rise
+    double largest = 0.0;        ///< at a node
+};
+
+/// Where the pressure would have to grow, and how far it may without the energy rising.
+Growth find_growth(const Loads& loads, const HatGrid& grid, const State& state, const Model& model)
+{
+    const CoarseEnergy energy = coarse_energy(loads, grid, state, model);
+    const VectorXd alpha = energy.curvature.solved(-energy.unsliding, coarse_tolerance, most_coarse_iterations)
+                               .cwiseMax(least_growth)
+                               .cwiseMin(most_growth);
+    const double step = line_search(energy, alpha);
+    if (step == 0.0) return {};
+    return {growth_of_loads(loads, grid, energy, step * alpha), (step * alpha).cwiseAbs().maxCoeff()};
+}
+
 /// @param share by which each loaded contact grows. @return behind the last of them
 template <bool wall, class R> const double* scale(TileContacts& contacts, const double* share, Motion* motion)
 {
@@ -117,22 +135,24 @@ ScalingReport scale_pressure(ContactNetwork& network, PistonGroup& pistons, Stat
     const Loads loads = find_loads(network, pistons, state, model, grid);
     if (loads.list.empty()) return {};
 
-    // Where would the pressure have to grow, and how far may it without the energy rising?
-    const CoarseEnergy energy = coarse_energy(loads, grid, state, model);
-    const VectorXd alpha = energy.curvature.solved(-energy.unsliding, coarse_tolerance, most_coarse_iterations)
-                               .cwiseMax(least_growth)
-                               .cwiseMin(most_growth);
-    const double step = line_search(energy, alpha);
-    if (step == 0.0) return {.corrections = 1, .refused = 1};
+    // What hangs together is corrected together: a hat that reaches into two silos would bind them.
+    const auto networks = networks_of(loads, state.count(), model.pistons.size());
+    std::vector<double> growth(loads.list.size(), 0.0);
+    double largest = 0.0;
+    for (const auto& places : networks) {
+        const Growth own = find_growth(networks.size() > 1 ? part_of(loads, places) : loads, grid, state, model);
+        largest = std::max(largest, own.largest);
+        for (std::size_t k = 0; k < own.of_load.size(); ++k) growth[places[k]] = own.of_load[k];
+    }
+    if (largest == 0.0) return {.corrections = 1, .refused = 1};
 
-    auto growth = growth_of_loads(loads, grid, energy, step * alpha);
     Motion* motion = state.motion.data();
     with_rows(model.physics, [&](auto rows) { apply<decltype(rows)>(network, loads, growth, motion); });
     if (!pistons.empty()) {
         growth.erase(growth.begin(), growth.begin() + static_cast<std::ptrdiff_t>(loads.first_of_pistons()));
         pistons.scale(growth, motion);
     }
-    return {.corrections = 1, .largest = (step * alpha).cwiseAbs().maxCoeff()};
+    return {.corrections = 1, .largest = largest};
 }
 
 } // namespace talus

@@ -125,13 +125,18 @@ TEST_CASE("35 scaling of pressures at rest", "[hard]")
     hard.tell("in every fifth", mean_error(bed, 5));
     hard.tell("in none", mean_error(bed, 0));
 
-    auto two = open_scene("two_tubes");
-    run_until(two, 1.3);
     const auto carried = [&](bool scaling) {
-        LoadedBed left(two, 0.0445);
-        left.model.solver.pressure_scaling = scaling;
-        return LoadHistory([&] { return left.step(); }, [&] { return left.profile_error(); }).sweeps_until_carried();
+        std::vector<double> sweeps;
+        for (int seed = 1; seed <= 5; ++seed) {
+            auto two = open_scene("two_tubes", {"seed=" + std::to_string(seed)});
+            run_until(two, 1.3);
+            LoadedBed left(two, 0.0445);
+            left.model.solver.pressure_scaling = scaling;
+            const LoadHistory history([&] { return left.step(); }, [&] { return left.profile_error(); });
+            sweeps.push_back(history.sweeps_until_carried());
+        }
+        return median(sweeps);
     };
-    hard.below("two columns, one loaded: sweeps until its profile is within 5 %", carried(true), 100);
+    hard.below("two columns, one loaded: sweeps until its profile is within 5 %, median of five", carried(true), 100);
     hard.tell("without scaling", carried(false));
 }
