@@ -13,6 +13,7 @@ namespace
 
 constexpr double sliding_share = 0.999; ///< of the largest friction: from there on a contact slides
 constexpr std::size_t most_networks = 10;
+constexpr std::size_t least_loads = 100; ///< of a network: grains that fall together are none
 
 /// λ·y, in all and without the rows that slide: their bias, a tangential velocity that friction cannot stop, says
 /// nothing of the pressure.
@@ -156,7 +157,7 @@ std::vector<std::vector<std::uint32_t>> networks_of(const Loads& loads, std::siz
     for (const Load& load : loads.list) ++size[bodies.first_of(static_cast<std::size_t>(load.a))];
     std::vector<std::size_t> large;
     for (std::size_t body = 0; body < size.size(); ++body)
-        if (size[body] > 0 && most_networks * size[body] >= loads.list.size()) large.push_back(body);
+        if (size[body] >= least_loads && most_networks * size[body] >= loads.list.size()) large.push_back(body);
     std::ranges::stable_sort(large, [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
     std::vector<std::size_t> number(spheres + pistons, 0);
     for (std::size_t n = 0; n < large.size(); ++n) number[large[n]] = n;

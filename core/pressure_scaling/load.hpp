@@ -35,7 +35,7 @@ struct Loads {
 };
 
 /// Loads whose spheres and pistons hang together, as places in the list, each in its order; the largest network first.
-/// What is less than a tenth of all is counted to the largest.
+/// What is less than a tenth of all, or than a hundred, is counted to the largest.
 std::vector<std::vector<std::uint32_t>> networks_of(const Loads& loads, std::size_t spheres, std::size_t pistons);
 
 /// Some of them.
