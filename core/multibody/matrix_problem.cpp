@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/multibody/matrix_problem.hpp"
 
+#include "core/base/disjoint_sets.hpp"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -17,45 +19,19 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Degrees of freedom that are joined to sets.
-class DofSets
-{
-public:
-    explicit DofSets(Index count) : parent_(static_cast<std::size_t>(count))
-    {
-        std::iota(parent_.begin(), parent_.end(), Index{0});
-    }
-
-    Index first_of_set(Index dof)
-    {
-        while (parent(dof) != dof) dof = parent(dof) = parent(parent(dof));
-        return dof;
-    }
-
-    void join(Index a, Index b)
-    {
-        const Index first = first_of_set(a), second = first_of_set(b);
-        parent(std::max(first, second)) = std::min(first, second);
-    }
-
-private:
-    std::vector<Index> parent_; ///< never larger than the index
-
-    Index& parent(Index dof) { return parent_[static_cast<std::size_t>(dof)]; }
-};
-
 using Dofs = std::vector<Index>;
 
 /// The sets of degrees of freedom that M couples, by their first, each ascending.
 std::vector<Dofs> coupled_dofs(const Eigen::SparseMatrix<double>& mass)
 {
-    DofSets sets(mass.rows());
+    DisjointSets sets(static_cast<std::size_t>(mass.rows()));
     for (Index column = 0; column < mass.outerSize(); ++column)
         for (Eigen::SparseMatrix<double>::InnerIterator entry(mass, column); entry; ++entry)
-            if (entry.value() != 0.0) sets.join(entry.row(), column);
+            if (entry.value() != 0.0)
+                sets.join(static_cast<std::size_t>(entry.row()), static_cast<std::size_t>(column));
     std::vector<Dofs> of_first(static_cast<std::size_t>(mass.rows()));
     for (Index dof = 0; dof < mass.rows(); ++dof)
-        of_first[static_cast<std::size_t>(sets.first_of_set(dof))].push_back(dof);
+        of_first[sets.first_of_set(static_cast<std::size_t>(dof))].push_back(dof);
     std::erase_if(of_first, [](const Dofs& dofs) { return dofs.empty(); });
     return of_first;
 }

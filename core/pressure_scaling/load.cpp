@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pressure_scaling/load.hpp"
 
+#include "core/base/disjoint_sets.hpp"
 #include "core/solver/whole_contact.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace talus
 {
 namespace
 {
 
-constexpr double sliding_share = 0.999; ///< of the largest friction: from there on a contact slides
-constexpr std::size_t most_networks = 10;
-constexpr std::size_t least_loads = 100; ///< of a network: grains that fall together are none
+constexpr double sliding_share = 0.999;   ///< of the largest friction: from there on a contact slides
+constexpr std::size_t most_networks = 10; ///< none is less than this part of all loads
+constexpr std::size_t least_loads = 100;  ///< of a network: grains that fall together are none
 
 /// λ·y, in all and without the rows that slide: their bias, a tangential velocity that friction cannot stop, says
 /// nothing of the pressure.
@@ -120,41 +120,18 @@ Loads find_loads(
     return loads;
 }
 
-/// Which bodies hang together (union–find).
-class Connected
-{
-public:
-    explicit Connected(std::size_t bodies) : parent_(bodies)
-    {
-        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-    }
-    std::size_t first_of(std::size_t body)
-    {
-        while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
-        return body;
-    }
-    void connect(std::size_t a, std::size_t b)
-    {
-        const std::size_t first_a = first_of(a), first_b = first_of(b);
-        parent_[std::max(first_a, first_b)] = std::min(first_a, first_b);
-    }
-
-private:
-    std::vector<std::size_t> parent_; ///< none after the body
-};
-
 } // namespace
 
 std::vector<std::vector<std::uint32_t>> networks_of(const Loads& loads, std::size_t spheres, std::size_t pistons)
 {
-    Connected bodies(spheres + pistons);
+    DisjointSets bodies(spheres + pistons);
     for (const Load& load : loads.list) {
-        if (load.b >= 0) bodies.connect(static_cast<std::size_t>(load.a), static_cast<std::size_t>(load.b));
+        if (load.b >= 0) bodies.join(static_cast<std::size_t>(load.a), static_cast<std::size_t>(load.b));
         if (load.piston >= 0)
-            bodies.connect(static_cast<std::size_t>(load.a), spheres + static_cast<std::size_t>(load.piston));
+            bodies.join(static_cast<std::size_t>(load.a), spheres + static_cast<std::size_t>(load.piston));
     }
     std::vector<std::size_t> size(spheres + pistons, 0);
-    for (const Load& load : loads.list) ++size[bodies.first_of(static_cast<std::size_t>(load.a))];
+    for (const Load& load : loads.list) ++size[bodies.first_of_set(static_cast<std::size_t>(load.a))];
     std::vector<std::size_t> large;
     for (std::size_t body = 0; body < size.size(); ++body)
         if (size[body] >= least_loads && most_networks * size[body] >= loads.list.size()) large.push_back(body);
@@ -163,7 +140,7 @@ std::vector<std::vector<std::uint32_t>> networks_of(const Loads& loads, std::siz
     for (std::size_t n = 0; n < large.size(); ++n) number[large[n]] = n;
     std::vector<std::vector<std::uint32_t>> networks(std::max<std::size_t>(1, large.size()));
     for (std::uint32_t k = 0; k < loads.list.size(); ++k)
-        networks[number[bodies.first_of(static_cast<std::size_t>(loads.list[k].a))]].push_back(k);
+        networks[number[bodies.first_of_set(static_cast<std::size_t>(loads.list[k].a))]].push_back(k);
     return networks;
 }
 

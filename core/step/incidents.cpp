@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/step/incidents.hpp"
 
+#include "core/base/disjoint_sets.hpp"
 #include "core/contacts/loads.hpp"
 
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <set>
 
 namespace talus
@@ -18,24 +18,6 @@ constexpr double joining_overlap = 0.1 * pressed_overlap;
 
 /// An overlap with a wall that has just appeared which tells that it stands inside a sphere, in smallest diameters.
 constexpr double inside = 0.05;
-
-/// Groups of spheres, each named by one of its spheres.
-class Groups
-{
-public:
-    explicit Groups(std::size_t spheres) : parent_(spheres) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-    std::int32_t of(std::int32_t sphere)
-    {
-        while (parent_[sphere] != sphere) sphere = parent_[sphere] = parent_[parent_[sphere]];
-        return sphere;
-    }
-
-    void join(std::int32_t a, std::int32_t b) { parent_[of(a)] = of(b); }
-
-private:
-    std::vector<std::int32_t> parent_;
-};
 
 /// What is known of a group.
 struct Press {
@@ -51,14 +33,14 @@ struct Press {
 std::vector<Incident> find_presses(const ContactNetwork& network, const State& state, const Model& model)
 {
     const auto is_deep = [&](const ContactGeometry& g) { return -g.gap > joining_overlap * model.min_diameter; };
-    Groups groups(state.count());
+    DisjointSets groups(state.count());
     for_each_loaded_sphere_contact(network, [&](const Contact& c, const ContactGeometry& g) {
-        if (is_deep(g)) groups.join(c.a, c.b);
+        if (is_deep(g)) groups.join(static_cast<std::size_t>(c.a), static_cast<std::size_t>(c.b));
     });
 
-    std::map<std::int32_t, Press> presses;
+    std::map<std::size_t, Press> presses; // by the first sphere of a group
     const auto add = [&](const Contact& c, const ContactGeometry& g, const TouchRecord& touch) -> Press& {
-        Press& press = presses[groups.of(c.a)];
+        Press& press = presses[groups.first_of_set(static_cast<std::size_t>(c.a))];
         press.spheres.insert(state.id[c.a]);
         press.is_known = press.is_known || (touch.is_jammed() && !touch.is_newly_jammed());
         press.is_new = press.is_new || touch.is_newly_jammed();
