@@ -79,6 +79,11 @@ void add_run_options(CLI::App& verb, CommandLine& line)
         ->excludes(quiet);
 }
 
+void add_force_flag(CLI::App& verb, CommandLine& line)
+{
+    verb.add_flag("--force", line.force, "Replace a file that is there already");
+}
+
 void add_run(CLI::App& app, CommandLine& line)
 {
     CLI::App* verb = app.add_subcommand("run", "Run a scene and write frames, metrics and a summary");
@@ -136,6 +141,7 @@ void add_dump(CLI::App& app, CommandLine& line)
         ->required()
         ->check(from_zero_up);
     verb->add_option("-o,--out", line.out, "The file, in FCLIB's format (HDF5)")->type_name("FILE")->required();
+    add_force_flag(*verb, line);
     add_threads_option(*verb, line);
     add_quiet_flag(*verb, line);
     verb->footer("Example: talus dump hopper --at 1.8 -o hopper.hdf5");
@@ -194,7 +200,7 @@ void add_solve(CLI::App& app, CommandLine& line)
     verb->add_option("PROBLEM", solve.problem, "A contact problem in FCLIB's format (HDF5)")->required()->type_name("");
     add_method_options(*verb, solve);
     verb->add_option("--tolerance", solve.settings.tolerance,
-            "On the residual, the relative error of the impulses: core/METHOD.md (9) [1e-4]")
+            "On the residual, how far the impulses are from the laws: core/METHOD.md (9) [1e-4]")
         ->type_name("EPS")
         ->check(from_zero_up);
     verb->add_option("--max-sweeps", solve.settings.max_sweeps, "Cap on the sweeps [10000]")
@@ -206,6 +212,7 @@ void add_solve(CLI::App& app, CommandLine& line)
     verb->add_option("--history", solve.history, "Write the errors after each sweep to this CSV file")
         ->type_name("FILE");
     verb->add_option("-o,--out", line.out, "Write problem and solution (r, u, v) to this file")->type_name("FILE");
+    add_force_flag(*verb, line);
     add_quiet_flag(*verb, line);
     verb->footer("Example: talus solve hopper.hdf5 --tolerance 1e-6 --history history.csv -o solved.hdf5\n"
                  "Ends with 0 where the tolerance was met, 1 where it was not, 2 where the file is wrong.");

@@ -53,6 +53,13 @@ OpenedScene open_scene(const SceneRequest& request)
     return build_opened(read_scene_as_asked(path, request), path.stem());
 }
 
+void warn_unless_protected(const FolderLock& lock)
+{
+    if (!lock.protects())
+        warn("{}: this file system knows no locks; nothing keeps a second run or resume from writing here\n",
+            lock.folder().string());
+}
+
 std::vector<fs::path> supplied_scenes()
 {
     std::vector<fs::path> scenes;

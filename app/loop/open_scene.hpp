@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/run/folder_lock.hpp"
 #include "io/scene/scene_file.hpp"
 #include "scenarios/build/build_report.hpp"
 
@@ -44,6 +45,9 @@ SceneFile read_scene_as_asked(const std::filesystem::path& path, const SceneRequ
 /// Builds a scene that was read.
 /// @throws InputError with file, line and column
 OpenedScene build_opened(SceneFile file, std::string name);
+
+/// Says so where a folder cannot be kept from others.
+void warn_unless_protected(const FolderLock& lock);
 
 /// The scene files that come with Talus, by name.
 std::vector<std::filesystem::path> supplied_scenes();

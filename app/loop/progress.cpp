@@ -153,8 +153,8 @@ std::string Progress::line(const Simulation& simulation, const StepReport& repor
         "t {:.4g} s  {:.0f} %  ETA {}  step {}  {:.0f} steps/s  {} spheres  {} contacts  residual {:.1e}  "
         "overlap {:.2g} % d",
         state.time, 100.0 * state.time / duration_, clock_time(remaining), state.steps,
-        static_cast<double>(state.steps - first_step_) / wall, state.count(), report.contacts.count, report.solve.residual,
-        100.0 * report.contacts.worst_overlap / simulation.model.mean_diameter);
+        static_cast<double>(state.steps - first_step_) / wall, state.count(), report.contacts.count,
+        report.solve.residual, 100.0 * report.contacts.worst_overlap / simulation.model.mean_diameter);
 }
 
 } // namespace talus

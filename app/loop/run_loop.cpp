@@ -16,6 +16,10 @@ namespace
 /// Escapes, and presses, told one by one on standard error; the walls that appear inside spheres are all told.
 constexpr std::size_t incidents_told = 5;
 
+/// How often a checkpoint is taken and kept, for where a step fails: not more than so often by the clock [s], nor so
+/// often that it costs more than so small a part of the time.
+constexpr double keep_interval = 1.0, most_pains = 100.0;
+
 std::vector<std::string> metrics_columns(const Simulation& simulation)
 {
     std::vector<std::string> columns = {"time_s", "spheres", "inserted", "left", "contacts", "sweeps", "residual",
@@ -103,7 +107,10 @@ RunEnd RunLoop::run()
     const StepReport last = run_until(simulation_, simulation_.duration, hooks);
 
     if (end.signal == 0) write_the_rest(last);
-    if (simulation_.incident_policy.stops(last)) end.incidents = last.bodies.incidents;
+    if (simulation_.incident_policy.stops(last)) {
+        end.incidents = last.bodies.incidents;
+        write_checkpoint();
+    }
     progress_.finish();
     clock_.begin(RunPhase::output); // so that the phases add up to the whole
     return end;
@@ -116,7 +123,10 @@ void RunLoop::before_step(bool is_last)
         write_lost(folder_, simulation_.escaped);
         lost_ = simulation_.escaped.size();
     }
-    if (is_last || checkpoint_is_due()) write_checkpoint();
+    const bool is_due = is_last || checkpoint_is_due();
+    if (is_due || clock_.wall() - recent_.taken >= std::max(keep_interval, most_pains * recent_.pains))
+        take_checkpoint();
+    if (is_due) write_checkpoint();
     clock_.begin(RunPhase::pour_and_outlet);
 }
 
@@ -163,21 +173,28 @@ bool RunLoop::checkpoint_is_due()
     return by_signal || by_schedule || by_wall;
 }
 
-void RunLoop::write_checkpoint()
+void RunLoop::take_checkpoint()
 {
     clock_.begin(RunPhase::output);
-    metrics_->sync();
+    const double begun = clock_.wall();
     std::uint64_t metrics_size = metrics_->size();
     Archive archive;
     archive(origin_);
     persist(archive, metrics_size);
-    talus::write_checkpoint(folder_, TALUS_VERSION, archive.bytes());
-    note_checkpoint(folder_, simulation_.state.time);
+    recent_ = {archive.take_bytes(), simulation_.state.time, clock_.wall(), clock_.wall() - begun};
+}
+
+/// Writes the one that was taken last.
+void RunLoop::write_checkpoint()
+{
+    clock_.begin(RunPhase::output);
+    metrics_->sync();
+    talus::write_checkpoint(folder_, TALUS_VERSION, recent_.bytes);
+    note_checkpoint(folder_, recent_.time);
     checkpoint_wall_ = clock_.wall();
     if (verbosity_ != Verbosity::verbose) return;
     progress_.finish();
-    warn("checkpoint at t = {:.6g} s: {:.1f} MB\n", simulation_.state.time,
-        1e-6 * static_cast<double>(archive.bytes().size()));
+    warn("checkpoint at t = {:.6g} s: {:.1f} MB\n", recent_.time, 1e-6 * static_cast<double>(recent_.bytes.size()));
 }
 
 /// The clock comes last: of the state it is all that differs from run to run.

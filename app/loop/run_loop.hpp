@@ -30,7 +30,7 @@ struct RunEnd {
 /// Frames and rows of metrics.csv are written at the first step at or after their due time. The first frames show the
 /// start and the last ones the end, be it the scene's or the step of an incident. The last checkpoint is that before
 /// the last step: from there a run can be closed anew or go on, without the frames that are there only because it
-/// ended.
+/// ended. Where a step fails it is one of about a second of the clock before.
 class RunLoop
 {
 public:
@@ -63,6 +63,7 @@ private:
     void tell_incidents(const StepReport& report);
 
     bool checkpoint_is_due();
+    void take_checkpoint();
     void write_checkpoint();
     void persist(Archive& archive, std::uint64_t& metrics_size);
 
@@ -79,6 +80,13 @@ private:
     double wall_interval_; ///< between checkpoints [s]
     Verbosity verbosity_;
     Schedule metrics_schedule_, particle_schedule_, contact_schedule_, checkpoint_schedule_;
+    /// A checkpoint, which is written every now and then, and where a step fails.
+    struct {
+        std::string bytes;
+        double time = 0.0;        ///< of the state [s]
+        double taken = -infinity; ///< when, by the clock [s]
+        double pains = 0.0;       ///< how long that took [s]
+    } recent_;
     double checkpoint_wall_ = 0.0;                                              ///< when the last was written [s]
     std::int64_t last_metrics_ = -1, last_particles_ = -1, last_contacts_ = -1; ///< steps after which they were written
     std::vector<bool> standing_;                                                ///< walls in the last wall frame

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <fstream>
 
 #include <fmt/ranges.h>
@@ -131,11 +130,18 @@ void remove_study(const fs::path& folder)
     }
 }
 
-/// The folder of a study: empty, not there, or of the same study, which goes on.
+/// Takes possession of the folder of a study: empty, not there, or of the same study, which goes on.
 /// @param study what must be the same
-void make_study_folder(const fs::path& folder, const std::string& study, bool force)
+FolderLock make_study_folder(const fs::path& folder, const std::string& study, bool force)
 {
     const fs::path mark = folder / study_mark;
+    const auto is_lock = [](const fs::directory_entry& entry) { return entry.path().filename() == lock_name; };
+    if (fs::exists(folder) && !fs::exists(mark) && !std::ranges::all_of(fs::directory_iterator(folder), is_lock))
+        throw InputError(fmt::format("{}: the folder is not empty and holds no study", folder.string()));
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw OutputError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+    FolderLock lock(folder);
     if (fs::exists(mark) && force) {
         remove_study(folder);
     } else if (fs::exists(mark)) {
@@ -144,14 +150,10 @@ void make_study_folder(const fs::path& folder, const std::string& study, bool fo
             throw InputError(
                 fmt::format("{}: the folder holds another study, or one of the scene as it was; --force replaces it",
                     folder.string()));
-        return;
-    } else if (fs::exists(folder) && !fs::is_empty(folder)) {
-        throw InputError(fmt::format("{}: the folder is not empty and holds no study", folder.string()));
+        return lock;
     }
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw OutputError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
     write_atomically(mark, study);
+    return lock;
 }
 
 /// Tells what is done, and guesses from its CPU time how long the rest takes.
@@ -287,7 +289,7 @@ ExitCode tell_result(const StudyResult& result, const StudyFrame& frame, Verbosi
 {
     if (const int signal = stop_signal(); signal != 0) {
         warn("stopped; to go on: the same command again\n");
-        return signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
+        return stopped_by(signal);
     }
     if (verbosity != Verbosity::quiet) {
         for (const std::string& sentence : advice(result)) say("{}\n", sentence);
@@ -306,7 +308,8 @@ ExitCode study_scene(const CommandLine& line)
     as_set.overrides = study.set;
     const OpenedScene opened = open_scene(as_set);
     const StudyFrame frame = frame_of(line, std::move(study), opened);
-    make_study_folder(frame.folder, identity(opened, frame.study), line.force);
+    const FolderLock lock = make_study_folder(frame.folder, identity(opened, frame.study), line.force);
+    warn_unless_protected(lock);
 
     const int at_once = line.threads > 0 ? line.threads : omp_get_num_procs();
     omp_set_num_threads(1); // a copy of a process has one thread; settings run beside each other instead

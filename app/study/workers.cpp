@@ -12,6 +12,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -30,7 +31,8 @@ struct Worker {
 /// As if begun anew: what signals do to the study must not reach into a run of it.
 [[noreturn]] void work(const std::function<std::string(std::size_t)>& task, std::size_t index, int to_the_study)
 {
-    ::signal(SIGTERM, SIG_DFL);
+    for (const int signal : {SIGTERM, SIGHUP, SIGXCPU}) ::signal(signal, SIG_DFL);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL); // a study that is killed leaves nothing that computes or writes
     ::signal(SIGINT, SIG_IGN); // Ctrl-C goes to all of a terminal's processes; the study ends its workers itself
     int code = 1;
     try {

@@ -38,12 +38,19 @@ void set_handler(int signal, void (*handler)(int))
     sigaction(signal, &action, nullptr);
 }
 
+bool is_ignored(int signal)
+{
+    struct sigaction action = {};
+    sigaction(signal, nullptr, &action);
+    return action.sa_handler == SIG_IGN;
+}
+
 } // namespace
 
 void catch_signals()
 {
-    set_handler(SIGINT, handle_stop);
-    set_handler(SIGTERM, handle_stop);
+    for (const int signal : {SIGINT, SIGTERM, SIGXCPU}) set_handler(signal, handle_stop);
+    if (!is_ignored(SIGHUP)) set_handler(SIGHUP, handle_stop); // nohup: the run outlives its terminal
     set_handler(SIGUSR1, handle_checkpoint);
 }
 

@@ -4,8 +4,9 @@
 namespace talus
 {
 
-/// From now on SIGINT and SIGTERM ask the run to stop after its step, and SIGUSR1 asks for a checkpoint. A second
-/// SIGINT or SIGTERM ends the program at once, with a sentence on how the run can go on.
+/// From now on SIGINT, SIGTERM, SIGHUP (a terminal was closed; not under nohup) and SIGXCPU (a limit on CPU time is
+/// reached) ask the run to stop after its step, and SIGUSR1 asks for a checkpoint. A second of the former ends the
+/// program at once, with a sentence on how the run can go on.
 void catch_signals();
 
 /// The signal that asked the run to stop; 0: none.

@@ -5,6 +5,7 @@
 
 #include <fmt/chrono.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -25,6 +26,14 @@ std::string time_of_day()
     const auto milliseconds = now.time_since_epoch().count() % 1000;
     return fmt::format(
         "{:%Y-%m-%d %H:%M:%S}.{:03}", fmt::localtime(std::chrono::system_clock::to_time_t(now)), milliseconds);
+}
+
+/// Whether a text begins with digits where the stamp has them, and with the same signs elsewhere.
+bool has_shape_of(const std::string& stamp, const std::string& text)
+{
+    const auto is_digit = [](char c) { return '0' <= c && c <= '9'; };
+    return std::ranges::mismatch(stamp, text, [&](char a, char b) { return is_digit(a) ? is_digit(b) : a == b; }).in1 ==
+           stamp.end();
 }
 
 } // namespace
@@ -55,6 +64,11 @@ void log_text(std::string_view text)
 
 void open_log(const std::filesystem::path& path)
 {
+    const std::string stamp = time_of_day();
+    std::string line;
+    std::getline(std::ifstream(path), line);
+    if (!line.empty() && !has_shape_of(stamp, line))
+        throw UsageError(fmt::format("{}: is no log file of Talus; nothing is added to it", path.string()));
     log_file.open(path, std::ios::app);
     if (!log_file) throw OutputError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
 }

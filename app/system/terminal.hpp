@@ -22,9 +22,14 @@ enum class ExitCode {
     physics = 3,       ///< a sphere escaped, is not a number or blew up
     output = 4,        ///< a file cannot be written
     internal = 70,     ///< a fault of Talus, or no memory
-    interrupted = 130, ///< by SIGINT, after a checkpoint
-    terminated = 143   ///< by SIGTERM, after a checkpoint
+    stopped = 128      ///< and the number of the signal, after a checkpoint
 };
+
+/// Of a program that a signal has stopped.
+inline ExitCode stopped_by(int signal)
+{
+    return static_cast<ExitCode>(static_cast<int>(ExitCode::stopped) + signal);
+}
 
 /// Arguments that make no sense; what() is one sentence.
 struct UsageError : std::runtime_error {
@@ -45,7 +50,7 @@ template <class... Args> void warn(fmt::format_string<Args...> format, Args&&...
 }
 
 /// From now on adds everything to this file too, each line with the time of day before it.
-/// @throws OutputError
+/// @throws UsageError where the file holds something that is no log, OutputError
 void open_log(const std::filesystem::path& path);
 
 } // namespace talus

@@ -33,7 +33,7 @@ StepReport step_until(Simulation& simulation, double time, Verbosity verbosity)
 ExitCode dump_step(const CommandLine& line)
 {
     OpenedScene opened = open_scene(line);
-    require_writable(line.out);
+    require_writable(line.out, line.force);
     if (line.threads > 0) omp_set_num_threads(line.threads);
     Simulation& simulation = opened.simulation;
     simulation.duration = line.at; // as far as the progress line goes

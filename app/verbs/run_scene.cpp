@@ -14,7 +14,7 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <csignal>
+#include <cstring>
 
 namespace talus
 {
@@ -53,11 +53,21 @@ void advise_to_relax(const OverlapCheck& overlaps, double d)
 /// Incidents told on standard error; all of them are in the summary.
 constexpr std::size_t incidents_told = 5;
 
-void print_incidents(const RunSummary& summary)
+/// How a run can go on after an incident, if it can.
+std::string way_past(const Incident& incident, const fs::path& folder)
+{
+    const bool may_be_removed = incident.kind == Incident::Kind::escaped && !incident.of_piston();
+    if (!may_be_removed && incident.kind != Incident::Kind::pressed) return "";
+    return fmt::format("; to go on all the same: talus resume {} --set {}", folder.string(),
+        may_be_removed ? "world.on_escape=remove" : "solver.on_no_solution=go_on");
+}
+
+void print_incidents(const RunSummary& summary, const fs::path& folder)
 {
     const std::size_t told = std::min(summary.incidents.size(), incidents_told);
     for (std::size_t k = 0; k < told; ++k)
-        warn("t = {:.6g} s: {}\n", summary.simulated_time, describe(summary.incidents[k], summary.wall_names));
+        warn("t = {:.6g} s: {}{}\n", summary.simulated_time, describe(summary.incidents[k], summary.wall_names),
+            k == 0 ? way_past(summary.incidents[k], folder) : "");
     if (summary.incidents.size() > told) warn("and {} more, see summary.json\n", summary.incidents.size() - told);
 }
 
@@ -68,12 +78,12 @@ ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const std::filesys
     const RunSummary summary = summarise(opened, loop, end);
     write_summary(folder / "summary.json", summary);
     if (verbosity != Verbosity::quiet) print_results(summary);
-    print_incidents(summary);
+    print_incidents(summary, folder);
     if (!end.incidents.empty()) return ExitCode::physics;
     if (end.signal == 0) return ExitCode::done;
-    warn("stopped by {} at t = {:.6g} s after a checkpoint; to go on: talus resume {}\n",
-        end.signal == SIGINT ? "SIGINT" : "SIGTERM", summary.simulated_time, folder.string());
-    return end.signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
+    warn("stopped by SIG{} at t = {:.6g} s after a checkpoint; to go on: talus resume {}\n", sigabbrev_np(end.signal),
+        summary.simulated_time, folder.string());
+    return stopped_by(end.signal);
 }
 
 fs::path scene_of_run(const fs::path& folder)
@@ -105,7 +115,8 @@ ExitCode run_scene(const CommandLine& line)
     OpenedScene opened = open_scene(line);
     if (line.threads > 0) omp_set_num_threads(line.threads);
     const fs::path folder = line.out.empty() ? fs::path("out") / opened.name : line.out;
-    make_run_folder(folder, resolved_scene(opened.scene), line.force);
+    const FolderLock lock = make_run_folder(folder, resolved_scene(opened.scene), line.force);
+    warn_unless_protected(lock);
     catch_signals();
 
     const OverlapCheck overlaps = check_overlaps(opened.simulation);
@@ -126,6 +137,8 @@ ExitCode run_scene(const CommandLine& line)
 ExitCode resume_run(const CommandLine& line)
 {
     const fs::path scene = scene_of_run(line.out);
+    const FolderLock lock(line.out);
+    warn_unless_protected(lock);
     Checkpoint checkpoint = read_checkpoint(line.out, TALUS_VERSION);
     if (line.threads > 0) omp_set_num_threads(line.threads);
     try {

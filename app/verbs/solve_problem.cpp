@@ -24,15 +24,16 @@ class History
 {
 public:
     explicit History(const fs::path& path)
-        : file_(path, {"sweep", "seconds", "residual", "worst_velocity_error", "worst_spin_error", "cone_violation"})
+        : file_(path,
+              {"sweep", "seconds", "residual", "worst_velocity_violation", "worst_spin_violation", "cone_violation"})
     {
     }
 
     template <class AnyIterate> void add(int sweeps, double seconds, const AnyIterate& x)
     {
         const ErrorMeasures errors = measure_errors(x);
-        file_.add_row({static_cast<double>(sweeps), seconds, errors.natural_map, errors.worst_velocity_error,
-            errors.worst_spin_error, errors.cone_violation});
+        file_.add_row({static_cast<double>(sweeps), seconds, errors.natural_map, errors.worst_velocity_violation,
+            errors.worst_spin_violation, errors.cone_violation});
     }
 
 private:
@@ -149,7 +150,7 @@ ExitCode solve_problem(const CommandLine& line)
     for (const auto& path : {request.history, line.out}) {
         if (!path.empty() && fs::exists(path) && fs::exists(request.problem) && fs::equivalent(path, request.problem))
             throw UsageError(fmt::format("{} is the problem itself; name another file for the result", path.string()));
-        if (!path.empty()) require_writable(path);
+        if (!path.empty()) require_writable(path, line.force);
     }
     FclibProblem file = read_fclib(request.problem);
     const std::string name = request.problem.string();

@@ -75,8 +75,8 @@ template <class AnyIterate> void print_result(const AnyIterate& x, const TimedRe
     const ErrorMeasures errors = measure_errors(x);
     say("sweeps: {}\nresidual: {:.3g}, tolerance {:.3g}{}\n", report.sweeps, errors.natural_map, tolerance,
         report.converged ? "" : ": NOT MET");
-    say("worst velocity error: {:.3g}", errors.worst_velocity_error);
-    if (errors.worst_spin_error > 0.0) say(", worst spin error: {:.3g}", errors.worst_spin_error);
+    say("worst velocity violation: {:.3g}", errors.worst_velocity_violation);
+    if (errors.worst_spin_violation > 0.0) say(", worst spin violation: {:.3g}", errors.worst_spin_violation);
     say("\nworst cone violation: {:.3g}\n", errors.cone_violation);
     if (report.running_error)
         say("energy error left, as the sweeps foretell: {:.3g}; the note's running error: {:.3g}\n",

@@ -39,6 +39,7 @@ public:
 
     bool reading() const { return reading_; }
     const std::string& bytes() const { return bytes_; }
+    std::string take_bytes() { return std::move(bytes_); }
 
     /// How many bytes have been put back.
     std::size_t position() const { return at_; }

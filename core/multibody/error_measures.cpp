@@ -61,7 +61,8 @@ template <class AnyIterate> ErrorMeasures measure_errors(const AnyIterate& itera
     errors.natural_map = relative_size(natural_map_sums(iterate, blocks));
     for_each_correction(iterate, blocks, [&](const Constraint& constraint, const Eigen::VectorXd& correction) {
         for (Index i = 0; i < constraint.rows; ++i) {
-            double& worst = is_rolling_row(constraint, i) ? errors.worst_spin_error : errors.worst_velocity_error;
+            double& worst =
+                is_rolling_row(constraint, i) ? errors.worst_spin_violation : errors.worst_velocity_violation;
             worst = std::max(worst, std::abs(correction[i]) * blocks.scale()[constraint.first_row + i]);
         }
         const auto impulse = iterate.impulse().segment(constraint.first_row, constraint.rows);

@@ -13,8 +13,9 @@ struct ErrorMeasures {
     /// P the projection of constraint.hpp (normal first), d the scale of each row. Zero where all laws hold, and only
     /// there.
     double natural_map = 0.0;
-    double worst_velocity_error = 0.0; ///< largest d|δ| of the rows in m/s: by so much a contact breaks its law [m/s]
-    double worst_spin_error = 0.0;     ///< largest d|δ| of the rolling rows [rad/s]
+    double worst_velocity_violation =
+        0.0;                           ///< largest d|δ| of the rows in m/s: by so much a contact breaks its law [m/s]
+    double worst_spin_violation = 0.0; ///< largest d|δ| of the rolling rows [rad/s]
     double cone_violation = 0.0;       ///< worst −λ_n, |λ_t| − μ λ_n [N s], |λ_r| − μ_r R* λ_n [N m s]
 };
 

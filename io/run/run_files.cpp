@@ -48,26 +48,51 @@ bool is_output_of_a_run(const std::string& name)
     return false;
 }
 
-/// Whether nothing is in a folder but, perhaps, a marker that a run did not live to finish.
+/// Whether nothing is in a folder but, perhaps, what a run that did not live to begin has left, or who begins one now.
 bool is_unused(const fs::path& folder)
 {
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-        if (entry.path().filename() != fmt::format("{}.tmp", marker)) return false;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const fs::path name = entry.path().filename();
+        if (name != fmt::format("{}.tmp", marker) && name != lock_name) return false;
+    }
     if (error) refuse_output(folder, error.message());
     return true;
 }
 
-/// Removes what a run wrote, and nothing else: a user may keep notes and pictures beside it.
+/// @throws InputError where a run may not write into the folder
+void require_usable(const fs::path& folder, bool force)
+{
+    std::error_code error;
+    if (!fs::exists(folder, error)) return;
+    if (!fs::is_directory(folder, error))
+        throw InputError(fmt::format("{}: is a file, not a folder for a run's output", folder.string()));
+    if (is_unused(folder)) return;
+    if (!fs::exists(folder / marker, error))
+        throw InputError(fmt::format(
+            "{}: the folder holds files that are not of a run of Talus; choose another with -o", folder.string()));
+    if (!force)
+        throw InputError(fmt::format(
+            "{}: the folder holds a run already; --force replaces it, -o chooses another", folder.string()));
+}
+
+/// Removes what a run wrote, and nothing else: a user may keep notes and pictures beside it. What says that the run is
+/// whole, or can go on, goes first, and the marker is left to be replaced: who is killed meanwhile leaves no run that
+/// seems to be one.
 void remove_run(const fs::path& folder)
 {
+    const auto remove = [](const fs::path& path) {
+        std::error_code removal;
+        fs::remove(path, removal);
+        if (removal) refuse_output(path, removal.message());
+    };
+    for (const char* first : {"summary.json", "checkpoint.latest", "checkpoint.previous"}) remove(folder / first);
     std::error_code error;
     for (const fs::path& place : {folder / "frames", folder}) {
         if (!fs::is_directory(place, error)) continue;
         for (const auto& entry : fs::directory_iterator(place, error)) {
-            if (entry.is_directory() || !is_output_of_a_run(entry.path().filename().string())) continue;
-            std::error_code removal;
-            if (!fs::remove(entry.path(), removal)) refuse_output(entry.path(), removal.message());
+            const std::string name = entry.path().filename().string();
+            if (!entry.is_directory() && name != marker && is_output_of_a_run(name)) remove(entry.path());
         }
         if (error) refuse_output(place, error.message());
     }
@@ -121,28 +146,24 @@ std::string header_line(const std::vector<std::string>& columns)
 
 } // namespace
 
-void make_run_folder(const fs::path& folder, const std::string& resolved_scene, bool force)
+FolderLock make_run_folder(const fs::path& folder, const std::string& resolved_scene, bool force)
 {
+    require_usable(folder, force);
     std::error_code error;
-    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-        throw InputError(fmt::format("{}: is a file, not a folder for a run's output", folder.string()));
-    if (fs::is_directory(folder, error) && !is_unused(folder)) {
-        if (!fs::exists(folder / marker, error))
-            throw InputError(fmt::format(
-                "{}: the folder holds files that are not of a run of Talus; choose another with -o", folder.string()));
-        if (!force)
-            throw InputError(fmt::format(
-                "{}: the folder holds a run already; --force replaces it, -o chooses another", folder.string()));
-        remove_run(folder);
-    }
     fs::create_directories(folder, error);
     if (error) refuse_output(folder, error.message());
+    FolderLock lock(folder);
+    require_usable(folder, force); // another may have come and gone since
+    remove_run(folder);
     write_atomically(folder / marker, resolved_scene);
+    return lock;
 }
 
-void require_writable(const fs::path& path)
+void require_writable(const fs::path& path, bool force)
 {
     if (fs::is_directory(path)) refuse_output(path, std::strerror(EISDIR));
+    if (fs::is_regular_file(path) && !force)
+        throw InputError(fmt::format("{}: the file is there already; --force replaces it", path.string()));
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (::access(folder.c_str(), W_OK | X_OK) != 0) refuse_output(path, std::strerror(errno));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/sensors/sensor.hpp"
+#include "io/run/folder_lock.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -14,15 +15,18 @@
 namespace talus
 {
 
-/// Makes the output folder of a run and marks it as Talus's own by writing scene.resolved.toml into it first.
+/// Makes the output folder of a run, takes possession of it, and marks it as Talus's own by writing
+/// scene.resolved.toml into it first.
 /// @param force replace the files of a run of Talus that the folder holds (others in it stay); a non-empty folder
 ///   without scene.resolved.toml is never touched
 /// @throws InputError where the folder may not be used, OutputError where it cannot be written
-void make_run_folder(const std::filesystem::path& folder, const std::string& resolved_scene, bool force);
+FolderLock make_run_folder(const std::filesystem::path& folder, const std::string& resolved_scene, bool force);
 
 /// Asks beforehand whether a file can be written later, so that nothing is computed in vain.
-/// @throws OutputError where the path is a folder, or its folder is not there or may not be written
-void require_writable(const std::filesystem::path& path);
+/// @param force replace a file that is there already
+/// @throws InputError where there is one that is not to be replaced; OutputError where the path is a folder, or its
+/// folder is not there or may not be written
+void require_writable(const std::filesystem::path& path, bool force);
 
 /// Writes a whole file at once: to a temporary name, flushed to the disk, then renamed.
 /// @throws OutputError

@@ -124,7 +124,7 @@ class Talus:
 
     def run(self, path, max_sweeps, *options):
         """Returns the seconds of processor, whether the tolerance was met, and what was said."""
-        command = [*self.command, "--max-sweeps", str(max_sweeps), *options, "-o", str(self.solved), str(path)]
+        command = [*self.command, "--max-sweeps", str(max_sweeps), *options, "-o", str(self.solved), "--force", str(path)]
         with tempfile.TemporaryFile("w+") as output:
             process = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT)
             _, status, usage = os.wait4(process.pid, 0)
@@ -150,7 +150,7 @@ class Talus:
             file["guesses/number_of_guesses"] = numpy.int32(1)
             file["guesses/1/r"] = reaction
         _, met, text = self.run(self.guessed, 0, "--guess", "1")
-        return Measures(number_after("residual", text), number_after("worst velocity error", text), met)
+        return Measures(number_after("residual", text), number_after("worst velocity violation", text), met)
 
 
 def number_after(label, text):

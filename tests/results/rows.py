@@ -220,8 +220,8 @@ TABLES = [
     Table("local_solves", "tests/benchmarks/local_solves.py", ROOT / "tests/results/local_solves.md", 0.5),
     Table("siconos", "tests/benchmarks/compare_siconos.py build/frictionless_bed.hdf5 build/flow.hdf5 build/pile.hdf5 "
           "--tolerance 1e-4 1e-8", ROOT / "tests/results/siconos.md", 10,
-          ("build/talus dump hopper --set contact.0.friction=0 --set contact.1.friction=0 --at 0.6 -o "
-           "build/frictionless_bed.hdf5", "build/talus dump hopper --at 2.0 -o build/flow.hdf5",
-           "build/talus dump pile_plain --at 4.5 -o build/pile.hdf5")),
+          ("build/talus dump --force hopper --set contact.0.friction=0 --set contact.1.friction=0 --at 0.6 -o "
+           "build/frictionless_bed.hdf5", "build/talus dump --force hopper --at 2.0 -o build/flow.hdf5",
+           "build/talus dump --force pile_plain --at 4.5 -o build/pile.hdf5")),
     Table("fuzz", "tests/run fuzz 600", ROOT / "tests/results/fuzz.md", 50),
 ]

@@ -56,6 +56,8 @@ const std::vector<Fault> faults = {
         "done; kill -9 $pid; wait $pid; } 2> /dev/null; (exit $?)"},
     {"SIGINT", meanwhile + "kill -INT $pid; wait $pid"},
     {"SIGTERM", meanwhile + "kill -TERM $pid; wait $pid"},
+    {"a closed terminal", "env --default-signal=HUP " + meanwhile + "kill -HUP $pid; wait $pid"},
+    {"a limit on CPU time", meanwhile + "kill -XCPU $pid; wait $pid"},
     second_signal("INT"),
     second_signal("TERM"),
     {"a crash of the program", meanwhile + "kill -SEGV $pid; wait $pid"},
@@ -199,6 +201,33 @@ void kill_at_random(const Victim& victim, int wanted)
     WARN(victim.text << ": " << kills << " kills survived, in " << runs << " runs");
 }
 
+/// Two commands of random kinds and moments meet in one folder, a signal perhaps with them; then the run goes on to its
+/// end. Returns whether the second came while the first had the folder.
+bool meet_at_random(const Victim& victim, const Workplace& place, talus::Random& random)
+{
+    const std::string begin = "run " + victim.arguments + " -o out", resume = "resume out";
+    const auto any_of = [&](const std::vector<std::string>& commands) {
+        return commands[static_cast<std::size_t>(talus::uniform(random) * static_cast<double>(commands.size()))];
+    };
+    const bool resumable = place.exists("out/checkpoint.latest") && !place.exists("out/summary.json");
+    const std::string first = resumable ? resume : begin + " --force";
+    const std::string options = fmt::format(" --quiet --threads {}", victim.threads);
+    const std::string signal = any_of({":", "kill -9 $first", "kill -INT $first", "kill -HUP $first"});
+    const Outcome outcome = place.shell(
+        fmt::format("{{ env --default-signal=HUP $TALUS {}{} & first=$!; sleep {:.4f}; $TALUS {}{}; echo $?; "
+                    "sleep {:.4f}; {}; wait $first; }} 2> told; (exit 0)",
+            first, options, 0.2 * talus::uniform(random), any_of({begin, begin + " --force", resume}), options,
+            0.1 * talus::uniform(random), signal));
+    CHECK((outcome.out == "0\n" || outcome.out == "2\n"));
+    const bool met = place.read("told").find("writes into this folder") != std::string::npos;
+    if (!place.exists("out/summary.json") || place.read("out/summary.json").find("interrupted") != std::string::npos) {
+        const bool can_go_on = place.exists("out/checkpoint.latest");
+        CHECK(place.talus((can_go_on ? resume : begin + " --force") + options).exit_code == 0);
+    }
+    CHECK(differences(place.path("whole"), place.path("out")) == std::vector<std::string>{});
+    return met;
+}
+
 } // namespace
 
 TEST_CASE("what befalls a run has an exit code and a sentence, and little is lost: tests/results/faults.md",
@@ -245,10 +274,31 @@ TEST_CASE("a run killed at a hundred random moments ends with the same bits", "[
     for (const Victim& victim : {beads_in_a_stream, beads_under_a_plate, small_hopper}) kill_at_random(victim, 100);
 }
 
+TEST_CASE("under nohup a run outlives its terminal", "[app][faults]")
+{
+    const Workplace place;
+    write_scene(place);
+    const Outcome outcome = place.shell(
+        "nohup $TALUS " + run + " -o out < /dev/null & pid=$!; " + wait_for_checkpoints + "kill -HUP $pid; wait $pid");
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(place.read("out/summary.json"), Contains("\"done\""));
+}
+
 TEST_CASE("a run that was killed while its folder was made can be begun again", "[app][faults]")
 {
     const Workplace place;
     place.write("scene.toml", beads_in_a_box);
     REQUIRE(place.shell("mkdir out; echo half > out/scene.resolved.toml.tmp").exit_code == 0);
     CHECK(place.talus("run scene.toml -o out --quiet").exit_code == 0);
+}
+
+TEST_CASE("whatever commands meet in a folder, the run ends with the same bits", "[app][faults][slow]")
+{
+    const Workplace place;
+    beads_in_a_stream.write(place);
+    REQUIRE(place.talus("run " + beads_in_a_stream.arguments + " --quiet --threads 1 -o whole").exit_code == 0);
+    talus::Random random(7);
+    int met = 0;
+    for (int pairs = 0; pairs < 100; ++pairs) met += meet_at_random(beads_in_a_stream, place, random);
+    CHECK(met > 20);
 }

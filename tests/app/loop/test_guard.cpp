@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/app/program.hpp"
+#include "tests/app/run_folder.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -29,6 +30,19 @@ TEST_CASE("a sphere that escapes ends the run with 3, and is told with id, speed
     const double beside = incident["position"][0].get<double>() - 0.08;
     CHECK(std::max(below, beside) >= 0.0);
     CHECK(std::max(below, beside) <= one_step);
+}
+
+TEST_CASE("a run that failed can go on where it can be mended, as if it had been so from the start", "[app][guard]")
+{
+    const Workplace place;
+    const std::string mended = " --set world.on_escape=remove";
+    REQUIRE(place.run(bead_on_a_table).exit_code == 3);
+    const std::string rows = place.read("out/metrics.csv");
+    CHECK(place.talus("resume out --quiet").exit_code == 3); // nothing was mended
+    CHECK(place.read("out/metrics.csv") == rows);
+    CHECK(place.talus("resume out --quiet" + mended).exit_code == 0);
+    REQUIRE(place.talus("run scene.toml -o mended --threads 1 --quiet" + mended).exit_code == 0);
+    CHECK(differences(place.path("mended"), place.path("out")).empty());
 }
 
 TEST_CASE("an escape loses no frame, and adds one of the step in which it happened", "[app][guard]")

@@ -65,3 +65,89 @@ TEST_CASE(
     CHECK(place.exists("out/frames/particles_000000.vtp"));
     CHECK_FALSE(place.exists("out/summary.json"));
 }
+
+namespace
+{
+
+/// A run that goes on until it is told to stop, and what comes to its folder meanwhile. Returns what they said.
+Outcome while_it_runs(const Workplace& place, const std::string& commands, const std::string& arguments)
+{
+    return place.shell("$TALUS " + arguments +
+                       " --quiet & pid=$!; echo $pid > pid; until [ -e out/talus.lock ]; do sleep "
+                       "0.005; done; sleep 0.2; " +
+                       commands + "; kill -INT $pid; wait $pid");
+}
+
+} // namespace
+
+TEST_CASE("a folder has one owner; who comes second is told who that is, and changes nothing", "[app][output]")
+{
+    const Workplace place;
+    place.write("scene.toml", replaced(beads_in_a_box, "duration = 0.05", "duration = 1e4"));
+    const Outcome outcome = while_it_runs(place,
+        "$TALUS resume out; echo $?; $TALUS run scene.toml -o out; echo $?; $TALUS run scene.toml -o out --force; echo "
+        "$?",
+        "run scene.toml -o out --threads 1 --set checkpoint.interval=0.1");
+    CHECK(outcome.exit_code == 128 + 2);
+    CHECK(outcome.out == "2\n2\n2\n");
+    const std::string owner = "out: process " + replaced(place.read("pid"), "\n", "") + " on ";
+    CHECK(outcome.err.find(owner) != outcome.err.rfind(owner)); // of resume and of --force
+    CHECK_THAT(outcome.err, Contains("the folder holds a run already") && Contains("nothing was changed"));
+    CHECK_FALSE(place.exists("out/talus.lock"));
+
+    const std::string rows = place.read("out/metrics.csv");
+    CHECK(rows.find('\0') == std::string::npos);
+    CHECK(place.talus("resume out --quiet --until 1e-3").exit_code == 2); // it is beyond, and the folder is free
+    CHECK(place.read("out/metrics.csv") == rows);
+}
+
+TEST_CASE("what was killed owns its folder no more", "[app][output]")
+{
+    const Workplace place;
+    place.write("scene.toml", replaced(beads_in_a_box, "duration = 0.05", "duration = 1e4"));
+    const Outcome killed =
+        while_it_runs(place, "kill -9 $pid", "run scene.toml -o out --threads 1 --set checkpoint.interval=0.1");
+    REQUIRE(place.exists("out/talus.lock"));
+    CHECK(place.talus("run scene.toml -o out --force --quiet --until 0.02").exit_code == 0);
+    CHECK_FALSE(place.exists("out/talus.lock"));
+}
+
+TEST_CASE("a study owns its folder", "[app][output]")
+{
+    const Workplace place;
+    place.write("scene.toml", replaced(beads_in_a_box, "duration = 0.05", "duration = 1e3"));
+    const std::string study = "study scene.toml -o out --threads 1";
+    const Outcome outcome =
+        while_it_runs(place, "$TALUS " + study + "; echo $?; $TALUS " + study + " --force; echo $?", study);
+    CHECK(outcome.out == "2\n2\n");
+    CHECK_THAT(outcome.err, Contains("out: process "));
+}
+
+TEST_CASE("files that are there already are replaced with --force only", "[app][output]")
+{
+    const Workplace place;
+    place.write("scene.toml", beads_in_a_box);
+    for (const std::string command :
+        {"dump scene.toml --at 0.02 -o ", "solve step.hdf5 -o ", "solve step.hdf5 --history "}) {
+        INFO(command);
+        place.write("mine", "ten years of work");
+        CHECK(place.talus(command + "mine --quiet").exit_code == 2);
+        CHECK(place.read("mine") == "ten years of work");
+        CHECK(place.talus(command + "mine --quiet --force").exit_code == 0);
+        CHECK(place.read("mine") != "ten years of work");
+        if (!place.exists("step.hdf5")) REQUIRE(place.shell("cp mine step.hdf5").exit_code == 0);
+    }
+}
+
+TEST_CASE("a log goes on with a log, and with nothing else", "[app][output]")
+{
+    const Workplace place;
+    place.write("scene.toml", beads_in_a_box);
+    const std::string run = "run scene.toml --force --log-file ";
+    CHECK(place.talus(run + "log").exit_code == 0);
+    const std::string once = place.read("log");
+    CHECK(place.talus(run + "log").exit_code == 0);
+    CHECK_THAT(place.read("log"), Catch::Matchers::StartsWith(once) && !Catch::Matchers::Equals(once));
+    CHECK(place.talus(run + "scene.toml").exit_code == 2);
+    CHECK(place.read("scene.toml") == beads_in_a_box);
+}

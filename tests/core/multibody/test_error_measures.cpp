@@ -66,8 +66,8 @@ TEST_CASE("the error measures do not depend on the units", "[multibody]")
     const auto a = measure_errors(x), b = measure_errors(y);
     CHECK(a.natural_map > 1e-3);
     CHECK(b.natural_map == Approx(a.natural_map).epsilon(1e-10));
-    CHECK(b.worst_velocity_error == Approx(a.worst_velocity_error * other.velocity()).epsilon(1e-10));
-    CHECK(b.worst_spin_error == Approx(a.worst_spin_error / other.time).epsilon(1e-10));
+    CHECK(b.worst_velocity_violation == Approx(a.worst_velocity_violation * other.velocity()).epsilon(1e-10));
+    CHECK(b.worst_spin_violation == Approx(a.worst_spin_violation / other.time).epsilon(1e-10));
 }
 
 TEST_CASE("a solution of a coupled problem with rolling rows has no error, another state has", "[multibody]")
@@ -78,8 +78,8 @@ TEST_CASE("a solution of a coupled problem with rolling rows has no error, anoth
     CHECK(report.converged);
     const auto errors = measure_errors(x);
     CHECK(errors.natural_map < 1e-12);
-    CHECK(errors.worst_velocity_error < 1e-10);
-    CHECK(errors.worst_spin_error < 1e-10);
+    CHECK(errors.worst_velocity_violation < 1e-10);
+    CHECK(errors.worst_spin_violation < 1e-10);
     CHECK(errors.cone_violation < 1e-14);
 
     VectorXd wrong = x.impulse();
@@ -118,7 +118,7 @@ TEST_CASE("the natural map of one contact, by hand", "[multibody]")
     // y = (2 − 1, 0.8 + 3, 0); z = (0.5, 0.2 − 0.76, 0), cut to a tangent of −0.25; δ = (0.5, 0.45, 0)
     const auto errors = measure_errors(x);
     CHECK(errors.natural_map == Approx(std::sqrt((0.5 * 0.5 + 0.45 * 0.45) / (1.0 + 0.2 * 0.2))));
-    CHECK(errors.worst_velocity_error == Approx(5.0 * 0.45));
+    CHECK(errors.worst_velocity_violation == Approx(5.0 * 0.45));
     CHECK(errors.cone_violation == 0.0);
 }
 

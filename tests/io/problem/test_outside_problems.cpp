@@ -44,7 +44,7 @@ template <class AnyIterate> double de_saxce_map(const AnyIterate& x, const Vecto
     return std::sqrt(change);
 }
 
-/// Scaled with D_nn and relative to ‖r‖: the measure of the published sweep counts.
+/// Scaled with D_nn and relative to ‖r‖: the measure in which the sweeps below were counted.
 template <class AnyIterate> double de_saxce_error(const AnyIterate& x, const DiagonalBlocks& blocks)
 {
     return de_saxce_map(x, blocks.scale()) / x.impulse().norm();
@@ -92,9 +92,10 @@ const auto confeti = "Confeti-ex13.hdf5";
 
 } // namespace
 
-TEST_CASE("outside problems: the sequential local solve gets as far as published, in as many sweeps", "[multibody]")
+TEST_CASE("outside problems: the sequential local solve gets as far as another implementation, in as many sweeps",
+    "[multibody]")
 {
-    // Counts of another implementation of the same rule, published with this project's design. Where it did not get to
+    // Counts of our own earlier implementation of the same rule, written apart from this one. Where it did not get to
     // the next error in 20 000 sweeps, the row ends.
     struct Row {
         std::string name;
@@ -137,7 +138,7 @@ TEST_CASE("an error that adds velocities to impulses may look small where the so
               std::max({file.q.norm(), x.impulse().norm(), (file.W * x.impulse() + file.q).norm()}) <
           1e-4);
     CHECK(measure_errors(x).natural_map > 0.5);
-    CHECK(measure_errors(x).worst_velocity_error > 500.0);
+    CHECK(measure_errors(x).worst_velocity_violation > 500.0);
 }
 
 TEST_CASE("the chute, with rolling rows, is solved", "[multibody]")
@@ -148,8 +149,8 @@ TEST_CASE("the chute, with rolling rows, is solved", "[multibody]")
     const auto report = solve_projected(x, {.tolerance = 1e-12, .max_sweeps = 100});
     CHECK(report.converged);
     const auto errors = measure_errors(x);
-    CHECK(errors.worst_velocity_error < 1e-12);
-    CHECK(errors.worst_spin_error < 1e-10);
+    CHECK(errors.worst_velocity_violation < 1e-12);
+    CHECK(errors.worst_spin_violation < 1e-10);
     CHECK(errors.cone_violation < 1e-12 * x.impulse().norm());
 
     // The file's own words: M v = H r + f, u = Hᵀ v + w, and a contact that is loaded has no normal velocity.

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+namespace talus
+{
+
+/// The file that a folder's owner holds locked while it runs, and takes away when it is done.
+inline constexpr const char* lock_name = "talus.lock";
+
+/// Makes this process the only one of Talus that writes into a folder, also over NFS, until it ends in whatever way.
+class FolderLock
+{
+public:
+    /// @pre the folder is there
+    /// @throws InputError with the owner's process and host where there is one, OutputError where the folder may not
+    /// be written
+    explicit FolderLock(const std::filesystem::path& folder);
+    ~FolderLock();
+    FolderLock(FolderLock&& other) noexcept;
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+    FolderLock& operator=(FolderLock&&) = delete;
+
+    /// False where the file system knows no locks.
+    bool protects() const { return protects_; }
+
+    std::filesystem::path folder() const { return path_.parent_path(); }
+
+private:
+    std::filesystem::path path_;
+    int descriptor_ = -1; ///< −1: moved from
+    bool protects_ = true;
+};
+
+} // namespace talus
