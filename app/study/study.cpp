@@ -136,6 +136,8 @@ FolderLock make_study_folder(const fs::path& folder, const std::string& study, b
 {
     const fs::path mark = folder / study_mark;
     const auto is_lock = [](const fs::directory_entry& entry) { return entry.path().filename() == lock_name; };
+    if (fs::exists(folder) && !fs::is_directory(folder))
+        throw InputError(fmt::format("{}: is a file, not a folder for a study", folder.string()));
     if (fs::exists(folder) && !fs::exists(mark) && !std::ranges::all_of(fs::directory_iterator(folder), is_lock))
         throw InputError(fmt::format("{}: the folder is not empty and holds no study", folder.string()));
     std::error_code error;
