@@ -17,7 +17,7 @@ struct TimeTable {
     static void describe(auto& self, auto&& key)
     {
         key("step", self.step, Allowed{.min = 0.0, .open = true, .names = {"auto"}}, "s",
-            "time step; auto: 0.008 sqrt(smallest diameter / gravity), and no sphere moves over 0.1 d in a step");
+            "time step; auto: 0.0072 sqrt(smallest diameter / gravity), and no sphere moves over 0.1 d in a step");
         key("duration", self.duration, at_least(0.0), "s", "simulated time");
         key("frame_interval", self.frame_interval, or_infinite(above(0.0)), "s",
             "time between frames for ParaView; inf: first and last only");
@@ -84,7 +84,7 @@ struct SolverTable {
             "but where pressures are scaled; above 1 they go farther than each contact asks for, by which fast flows "
             "converge in fewer sweeps");
         key("push_out_speed", self.push_out_speed, Allowed{.min = 0.0, .names = {"auto"}}, "m/s",
-            "largest speed with which overlap is undone; auto: 0.1 sqrt(diameter x gravity), without gravity 0.0008 "
+            "largest speed with which overlap is undone; auto: 0.1 sqrt(diameter x gravity), without gravity 0.00072 "
             "diameter / step");
         key("pressure_scaling", self.pressure_scaling, one_of({"auto"}), "",
             "carries changes of load through the whole bed at once; only with projected; auto: with projected, where "

@@ -132,9 +132,9 @@ double push_out_speed(const scene::SolverTable& table, const Model& model)
 {
     if (table.push_out_speed.name != "auto") return table.push_out_speed.number;
     const double gravity = model.gravity.norm();
-    // Without gravity what it is with gravity at the automatic step h = 0.008 √(d/gravity).
+    // Without gravity what it is with gravity at the automatic step h = 0.0072 √(d/gravity).
     return gravity > 0.0 ? 0.1 * std::sqrt(model.mean_diameter * gravity)
-                         : 0.0008 * model.mean_diameter / model.time_step;
+                         : 0.00072 * model.mean_diameter / model.time_step;
 }
 
 Stabilisation stabilisation_of(const scene::SolverTable& table)

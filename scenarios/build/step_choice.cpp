@@ -12,10 +12,10 @@ namespace talus
 namespace
 {
 
-constexpr double gravity_share = 0.008; ///< h / √(d/g); 0.003 is fine, above 0.016 only if the scene insists
-constexpr double longest_move = 0.1;    ///< diameters in a step
-constexpr double beyond_sense = 10.0;   ///< times as fast as anything should come to be
-constexpr double level = 0.99;          ///< cosine of the steepest plane on which spheres come to rest for sure
+constexpr double gravity_share = 0.0072; ///< h / √(d/g); 0.003 is fine, above 0.016 only if the scene insists
+constexpr double longest_move = 0.1;     ///< diameters in a step
+constexpr double beyond_sense = 10.0;    ///< times as fast as anything should come to be
+constexpr double level = 0.99;           ///< cosine of the steepest plane on which spheres come to rest for sure
 
 /// The lowest point of the world, which may be open upwards.
 double lowest_corner(const Box& world, const Vec3& up)

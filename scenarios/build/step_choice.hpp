@@ -23,8 +23,8 @@ struct StepChoice {
     double automatic() const { return std::min(by_gravity, by_speed); }
 };
 
-/// The step of the scene: the one given, or h = 0.008 √(d_min/gravity) times the factor, and no longer than the time in
-/// which the fastest sphere moves 0.1 d_min. Without gravity the speeds alone decide.
+/// The step of the scene: the one given, or h = 0.0072 √(d_min/gravity) times the factor, and no longer than the time
+/// in which the fastest sphere moves 0.1 d_min. Without gravity the speeds alone decide.
 /// @param simulation its spheres are there; @param factor what an accuracy asks for
 /// @throws SceneError where neither gravity nor a speed gives a step
 StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation, double factor = 1.0);

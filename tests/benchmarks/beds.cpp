@@ -180,7 +180,7 @@ Laid simulate(const Bed& bed)
     Laid laid;
     laid.step = simulation.model.time_step;
     // Not the one that a fall from the height of the lattice asks for.
-    if (!bed.of_scene) laid.step = 0.008 * std::sqrt(simulation.model.min_diameter / 9.81);
+    if (!bed.of_scene) laid.step = 0.0072 * std::sqrt(simulation.model.min_diameter / 9.81);
     const State& state = simulation.state;
     for (std::size_t i = 0; i < state.count(); ++i) {
         laid.spheres.positions.push_back(state.position[i]);

@@ -6,8 +6,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-
 #include <malloc.h>
 
 namespace talus::bench
@@ -42,13 +40,6 @@ double free_processors()
 bool two_are_free()
 {
     return free_processors() > 1.8;
-}
-
-double median(std::vector<double> values)
-{
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
 }
 
 } // namespace talus::bench

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "tests/support/median.hpp"
+
 #include <chrono>
 #include <ctime>
 #include <vector>
@@ -28,9 +30,6 @@ double free_processors();
 
 /// Whether figures of two threads mean anything now: on a busy machine threads wait for each other many times as long.
 bool two_are_free();
-
-/// The middle one; of an even number the lower of the two in the middle.
-double median(std::vector<double> values);
 
 // Each adds its benchmarks to those of the program.
 void register_triad(const char* moment);

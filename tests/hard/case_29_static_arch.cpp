@@ -3,12 +3,14 @@
 #include "loaded_bed.hpp"
 
 #include "core/step/time_step.hpp"
+#include "tests/support/median.hpp"
 #include "tests/validation/run_scene.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 using namespace talus;
 using namespace talus::test;
@@ -25,13 +27,15 @@ int below_hole(const State& state)
 }
 
 /// The hopper after a second in which no bead came through, with at least half of its beads above the hole.
-Simulation clogged(const std::string& law, bool scaled)
+/// @param seed the first to try; afterwards the next one
+Simulation clogged(const std::string& law, bool scaled, int& seed)
 {
     constexpr double patience = 1.0, give_up = 12.0;
-    for (int seed = 1;; ++seed) {
+    for (;;) {
+        REQUIRE(seed < 20);
         auto s = open_scene("clogged_hopper",
             {"solver.stabilisation=" + law, std::string("solver.pressure_scaling=") + (scaled ? "true" : "false"),
-                "seed=" + std::to_string(seed)});
+                "seed=" + std::to_string(seed++)});
         double since = 0.4;
         while (s.state.time < give_up && s.state.count() > 300) {
             const auto count = s.state.count();
@@ -39,7 +43,6 @@ Simulation clogged(const std::string& law, bool scaled)
             if (s.state.count() != count || s.state.time < 0.5 || below_hole(s.state) > 0) since = s.state.time;
             if (s.state.time - since > patience) return s;
         }
-        REQUIRE(seed < 20);
     }
 }
 
@@ -101,25 +104,33 @@ TEST_CASE("29 static arch over a hole of three beads", "[hard]")
     // sweeps. An arch that stands needs hardly any sweeps, for it has its impulses from the step before; how many a
     // step needs shows where they are forgotten once, as if the run began with the arch, or in every step.
     HardCase hard("29 static arch over a hole of three beads");
-    Simulation arch = clogged("projected", true);
+    int seed = 1;
+    Simulation arch = clogged("projected", true, seed);
     const SolverSettings production = arch.model.solver;
-    const Arch held = watch(arch, production);
+    std::vector<double> lifetime, sinking, sweeps;
+    for (int k = 0; k < 3; ++k) {
+        const Arch held = watch(k == 0 ? arch : clogged("projected", true, seed), production);
+        lifetime.push_back(held.lifetime);
+        sinking.push_back(held.sinking);
+        sweeps.push_back(held.sweeps);
+    }
     hard.tell("beads above the hole", static_cast<double>(arch.state.count()));
-    hard.above("steps until a bead comes through", held.lifetime, watched_steps);
-    hard.below("sinking of the centre of mass over 1e5 steps [d]", held.sinking, 1e-3);
-    hard.tell("sweeps in a step", held.sweeps);
+    hard.above("steps until a bead comes through, shortest of three arches", std::ranges::min(lifetime), watched_steps);
+    hard.below("sinking of the centre of mass over 1e5 steps, median of three [d]", median(sinking), 1e-3);
+    hard.tell("the same, worst of three [d]", std::ranges::max(sinking));
+    hard.tell("sweeps in a step, median of three", median(sweeps));
     tell(hard, "one plain sweep", watch(arch, plain_sweeps(arch, 1)));
 
     constexpr int fewer_steps = 20000;
     arch.network = {};
     tell(hard, "2e4 steps, impulses forgotten once", watch(arch, production, fewer_steps));
-    for (const int sweeps : {1, 3, 10, 30})
-        tell(
-            hard, "2e4 steps, forgotten once, " + plural(sweeps), watch(arch, plain_sweeps(arch, sweeps), fewer_steps));
-    for (const int sweeps : {3, 10, 30, 100})
-        tell(hard, "2e4 steps, no warm start, " + plural(sweeps),
-            watch(arch, plain_sweeps(arch, sweeps), fewer_steps, true));
+    for (const int count : {1, 3, 10, 30})
+        tell(hard, "2e4 steps, forgotten once, " + plural(count), watch(arch, plain_sweeps(arch, count), fewer_steps));
+    for (const int count : {3, 10, 30, 100})
+        tell(hard, "2e4 steps, no warm start, " + plural(count),
+            watch(arch, plain_sweeps(arch, count), fewer_steps, true));
 
-    const Simulation soft = clogged("matched", false);
+    int soft_seed = 1;
+    const Simulation soft = clogged("matched", false, soft_seed);
     tell(hard, "matched", watch(soft, soft.model.solver));
 }

@@ -2,6 +2,7 @@
 #include "hard_case.hpp"
 #include "loaded_bed.hpp"
 
+#include "tests/support/median.hpp"
 #include "tests/validation/run_scene.hpp"
 
 #include <catch2/catch.hpp>

@@ -21,12 +21,6 @@ Simulation bed_at_rest(int layers, int seed)
     return s;
 }
 
-double median(std::vector<double> values)
-{
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
-
 std::size_t steps_until_carried(const std::vector<double>& errors)
 {
     constexpr std::size_t window = 100;

@@ -17,8 +17,6 @@ inline constexpr int grains_per_layer = 16; ///< of the tubes below
 /// `projected` with scaling of pressures.
 Simulation bed_at_rest(int layers, int seed = 1);
 
-double median(std::vector<double> values);
-
 /// How many steps it takes until the force-profile error is within 5 %, and on the mean of a hundred steps stays so: a
 /// load makes grains find new places, and while one does, the profile is off for some steps, as it should be.
 std::size_t steps_until_carried(const std::vector<double>& errors);

@@ -154,7 +154,7 @@ std::string name_of(Stabilisation stabilisation)
 
 double automatic_step(double diameter)
 {
-    return 0.008 * std::sqrt(diameter / standard_gravity);
+    return 0.0072 * std::sqrt(diameter / standard_gravity);
 }
 
 double automatic_push_out_speed(double diameter)

@@ -86,7 +86,7 @@ SolverSettings production_settings(Stabilisation stabilisation);
 /// As a scene names the law.
 std::string name_of(Stabilisation stabilisation);
 
-/// h = 0.008 √(d/g), what a scene gets whose smallest spheres have this diameter.
+/// h = 0.0072 √(d/g), what a scene gets whose smallest spheres have this diameter.
 double automatic_step(double diameter = 2 * standard_radius);
 
 /// 0.1 √(d g), what a scene gets whose spheres have this mean diameter [m/s].
