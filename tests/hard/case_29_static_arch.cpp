@@ -108,12 +108,14 @@ TEST_CASE("29 static arch over a hole of three beads", "[hard]")
     Simulation arch = clogged("projected", true, seed);
     const SolverSettings production = arch.model.solver;
     std::vector<double> lifetime, sinking, sweeps;
-    for (int k = 0; k < 3; ++k) {
-        const Arch held = watch(k == 0 ? arch : clogged("projected", true, seed), production);
+    const auto hold = [&](const Simulation& one) {
+        const Arch held = watch(one, production);
         lifetime.push_back(held.lifetime);
         sinking.push_back(held.sinking);
         sweeps.push_back(held.sweeps);
-    }
+    };
+    hold(arch);
+    for (int other = 0; other < 2; ++other) hold(clogged("projected", true, seed));
     hard.tell("beads above the hole", static_cast<double>(arch.state.count()));
     hard.above("steps until a bead comes through, shortest of three arches", std::ranges::min(lifetime), watched_steps);
     hard.below("sinking of the centre of mass over 1e5 steps, median of three [d]", median(sinking), 1e-3);

@@ -6,6 +6,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 using namespace talus;
 using namespace talus::test;
 
@@ -25,6 +29,29 @@ Quietness settle_and_watch(const std::string& scene, const std::string& law, dou
     return quiet;
 }
 
+/// Boxes of rigid grains. In one of them a grain may slip while it is watched, and then the whole bed moves a thousand
+/// times as much as another does.
+struct Rigid {
+    double creep, restless, height; ///< medians
+    double overlap;                 ///< the largest of their means
+};
+
+Rigid settle_rigid(
+    const std::vector<std::string>& seeds, double settle, double window, const std::vector<std::string>& overrides = {})
+{
+    std::vector<double> creep, restless, height, overlap;
+    for (const auto& seed : seeds) {
+        auto own = overrides;
+        own.push_back(seed);
+        const auto quiet = settle_and_watch("packing", "projected", settle, window, own);
+        creep.push_back(quiet.creep);
+        restless.push_back(quiet.restless);
+        height.push_back(quiet.height);
+        overlap.push_back(quiet.overlap);
+    }
+    return {median(creep), median(restless), median(height), std::ranges::max(overlap)};
+}
+
 } // namespace
 
 TEST_CASE("a small settled box is silent with both laws", "[quietness]")
@@ -37,9 +64,9 @@ TEST_CASE("a small settled box is silent with both laws", "[quietness]")
     CHECK(matched.creep < 1e-4);
     CHECK(matched.restless < 1e-8);
     CHECK(matched.overlap < 5e-4);
-    const auto projected = settle_and_watch("packing", "projected", 0.9, 0.3, small);
-    CHECK(projected.creep < 2e-3);
-    CHECK(projected.restless < 1e-7);
+    const Rigid projected = settle_rigid({"seed=1", "seed=2", "seed=3", "seed=4", "seed=5"}, 0.9, 0.3, small);
+    CHECK(projected.creep < 5e-4);
+    CHECK(projected.restless < 1e-8);
     CHECK(projected.overlap < 1e-5);
 }
 
@@ -64,17 +91,11 @@ TEST_CASE("a settled box of 5000 grains is silent with both laws", "[quietness][
     CHECK(matched.creep < 3e-5);
     CHECK(matched.restless < 1e-9);
     CHECK(matched.overlap < 1e-3);
-    // With rigid contacts one grain in thousands may slip in the window, so three beds are asked.
-    std::vector<double> creep, restless;
-    for (const auto* seed : {"seed=1", "seed=2", "seed=3"}) {
-        const auto projected = settle_and_watch("packing", "projected", 1.4, 0.6, {seed});
-        creep.push_back(projected.creep);
-        restless.push_back(projected.restless);
-        CHECK(projected.overlap < 1e-5);
-        CHECK(matched.height == Approx(projected.height).epsilon(0.02));
-    }
-    CHECK(median(creep) < 1e-3);
-    CHECK(median(restless) < 1e-8);
+    const Rigid projected = settle_rigid({"seed=1", "seed=2", "seed=3"}, 1.4, 0.6);
+    CHECK(projected.creep < 1e-3);
+    CHECK(projected.restless < 1e-8);
+    CHECK(projected.overlap < 1e-5);
+    CHECK(matched.height == Approx(projected.height).epsilon(0.02));
 }
 
 TEST_CASE("a pile does not flow with either law", "[quietness][slow]")

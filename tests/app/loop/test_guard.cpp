@@ -120,7 +120,7 @@ from = 0.11
 TEST_CASE("spheres that move far in a step are told once, with the step that would do", "[app][guard]")
 {
     const Workplace place;
-    const Outcome outcome = place.run(bead_on_a_table, "--set time.step=0.0025 --until 0.1"); // 0.125 d in a step
+    const Outcome outcome = place.run(bead_on_a_table, "--set time.step=0.0022 --until 0.1"); // 0.11 d in a step
     CHECK_THAT(outcome.err, Contains("over 0.1 d in 10 steps") && Contains("--set time.step="));
     CHECK(line_of(outcome.err + "|", "|") == 2);
 }
