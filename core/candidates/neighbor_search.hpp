@@ -18,7 +18,7 @@ struct IndexPair {
 };
 
 /// All pairs of boxes that meet, touching included, across periodic borders too, each once and in no particular order
-/// (CGAL's box intersection, sequential).
+/// (CGAL's box intersection, slab by slab, the slabs at the same time).
 std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes, const Periodicity& periodicity = {});
 
 /// The same, but only the pairs with at least one member in `movers`, whose entries differ.

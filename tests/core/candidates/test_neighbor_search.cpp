@@ -50,6 +50,22 @@ TEST_CASE("neighbor search finds the pairs that brute force finds", "[neighbor_s
     CHECK(sorted(find_box_pairs(boxes)) == expected);
 }
 
+TEST_CASE("a search in several slabs finds each pair once", "[neighbor_search]")
+{
+    const double longest = GENERATE(infinity, 60.0); // of the cell, along x
+    constexpr std::size_t count = 17000;
+    auto boxes = random_boxes(count, 3.0, 5);
+    const Periodicity periodicity{.length = Vec3(longest, infinity, infinity)};
+    const auto expected = find_box_pairs_brute_force(boxes, periodicity);
+    REQUIRE(expected.size() > count);
+    CHECK(sorted(find_box_pairs(boxes, periodicity)) == expected);
+    std::vector<std::int32_t> movers;
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(count); i += 2) movers.push_back(i);
+    auto some = expected;
+    std::erase_if(some, [](const IndexPair& pair) { return pair.a % 2 != 0 && pair.b % 2 != 0; });
+    CHECK(sorted(find_box_pairs(boxes, movers, periodicity)) == some);
+}
+
 TEST_CASE("a search for some boxes finds each pair that has one of them, once", "[neighbor_search]")
 {
     const auto count = GENERATE(as<std::size_t>{}, 2, 30, 500, 2000);
