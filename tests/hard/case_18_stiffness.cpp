@@ -52,7 +52,7 @@ TEST_CASE("18 very soft and very hard contacts", "[hard]")
     const double soft = weight / (0.1 * d);
     World column_soft = column({.friction = 0.5, .stiffness = soft}, Stabilisation::matched);
     double fastest = 0.0;
-    const int steps = static_cast<int>(60.0 / column_soft.model.time_step);
+    const int steps = static_cast<int>(70.0 / column_soft.model.time_step);
     for (int k = 0; k < steps; ++k) {
         column_soft.step();
         fastest = std::max(fastest, column_soft.report.bodies.fastest_speed);

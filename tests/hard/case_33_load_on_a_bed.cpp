@@ -72,6 +72,31 @@ void run(int layers, int beds)
     tell(hard, "without scaling: ", plain);
 }
 
+double vertical_momentum(const Model& model, const State& state)
+{
+    double sum = model.pistons[0].mass * state.pistons[0].velocity.z();
+    for (std::size_t i = 0; i < state.count(); ++i) sum += state.mass(i) * state.motion[i].velocity.z();
+    return sum;
+}
+
+/// Of the moment at which the lid becomes heavier: what the floor does not carry yet, lid and grains gain.
+double sweeps_until_lid_is_carried(const Simulation& bed, bool scaled)
+{
+    Model model = bed.model;
+    State state = bed.state;
+    ContactNetwork network = bed.network;
+    model.solver.pressure_scaling = scaled;
+    const double impulse = 1.25 * model.pistons[0].mass * model.gravity.norm() * model.time_step;
+    double before = 0.0;
+    const LoadHistory history(
+        [&] {
+            before = vertical_momentum(model, state);
+            return advance(state, network, model);
+        },
+        [&] { return std::abs(vertical_momentum(model, state) - before) / impulse; });
+    return history.sweeps_until_carried();
+}
+
 } // namespace
 
 // Sweeps carry a change of load from contact to contact; rigid grains need about 0.4 n² ln(1/ε) of them through n
@@ -100,32 +125,20 @@ TEST_CASE("33 a load on a bed of 160 layers", "[hard]")
 
 TEST_CASE("33 a lid that becomes heavier", "[hard]")
 {
-    // Ten thousand grains' mass on a bed of thirty layers, and a quarter more of it from one step to the next. What the
-    // floor does not carry yet, the momentum of lid and grains gains.
+    // Ten thousand grains' mass on a bed of thirty layers, and a quarter more of it from one step to the next.
+    // In one bed of several a grain finds a new place meanwhile, so five are asked.
     HardCase hard("33 a lid that becomes heavier");
-    auto s = open_scene("lid_on_bed");
-    run_until(s, 3.0);
-    const auto momentum = [](const Model& model, const State& state) {
-        double sum = model.pistons[0].mass * state.pistons[0].velocity.z();
-        for (std::size_t i = 0; i < state.count(); ++i) sum += state.mass(i) * state.motion[i].velocity.z();
-        return sum;
-    };
-    const auto carried = [&](bool scaled) {
-        Model model = s.model;
-        State state = s.state;
-        ContactNetwork network = s.network;
-        model.solver.pressure_scaling = scaled;
-        const double impulse = 1.25 * model.pistons[0].mass * model.gravity.norm() * model.time_step;
-        double before = 0.0;
-        const LoadHistory history(
-            [&] {
-                before = momentum(model, state);
-                return advance(state, network, model);
-            },
-            [&] { return std::abs(momentum(model, state) - before) / impulse; });
-        return history.sweeps_until_carried();
-    };
-    hard.holds("pressures are scaled without being asked for", s.model.solver.pressure_scaling);
-    hard.below("sweeps until the floor's force is within 5 %", carried(true), 10);
-    hard.tell("without scaling", carried(false));
+    std::vector<double> scaled, plain;
+    bool unasked = true;
+    for (int seed = 1; seed <= 5; ++seed) {
+        auto s = open_scene("lid_on_bed", {"seed=" + std::to_string(seed)});
+        run_until(s, 3.0);
+        unasked = unasked && s.model.solver.pressure_scaling;
+        scaled.push_back(sweeps_until_lid_is_carried(s, true));
+        plain.push_back(sweeps_until_lid_is_carried(s, false));
+    }
+    hard.holds("pressures are scaled without being asked for", unasked);
+    hard.below("sweeps until the floor's force is within 5 %, median", median(scaled), 10);
+    for (const double sweeps : scaled) hard.tell("one bed: sweeps", sweeps);
+    hard.tell("without scaling, median", median(plain));
 }
