@@ -112,6 +112,7 @@ void add_check(CLI::App& app, CommandLine& line)
 {
     CLI::App* verb = app.add_subcommand("check", "Validate a scene; say what it holds and what a run of it needs");
     add_scene_options(*verb, line);
+    verb->add_flag("--resolved", line.resolved, "Print the scene too, with every key written out");
     verb->footer("Example: talus check hopper --set time.step=1e-4");
     verb->callback([&] { line.verb = CommandLine::Verb::check; });
 }

@@ -38,7 +38,8 @@ struct CommandLine : SceneRequest {
     std::filesystem::path log;   ///< empty: no log file
     bool force = false;
     bool relax = false;
-    int threads = 0; ///< 0: as many as OpenMP takes, all cores unless its environment says otherwise
+    bool resolved = false; ///< check prints the resolved scene
+    int threads = 0;       ///< 0: as many as OpenMP takes, all cores unless its environment says otherwise
     Verbosity verbosity = Verbosity::normal;
 };
 

@@ -53,7 +53,7 @@ ExitCode execute(const CommandLine& line)
     case CommandLine::Verb::resume:
         return resume_run(line);
     case CommandLine::Verb::check:
-        check_scene(open_scene(line));
+        check_scene(open_scene(line), line.resolved);
         break;
     case CommandLine::Verb::keys:
         say_text(key_table(line.table));

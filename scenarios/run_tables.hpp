@@ -39,7 +39,7 @@ struct WorldTable {
         key("gravity", self.gravity, any(), "m/s2", "acceleration of free fall");
         key("min", self.min, or_infinite(any()), "m",
             "lower corner of the world that no sphere may leave; -inf: from the walls, fills, pours and outlets, grown "
-            "by five diameters");
+            "by five diameters, and without end to the sides where a plane bears spheres");
         key("max", self.max, or_infinite(any()), "m", "upper corner; inf: from the same, and open upwards");
         key("periodic", self.periodic, one_of({"x", "y", "z"}), "",
             "axes along which the world repeats itself from 'min' to 'max', 2.2 diameters of the largest sphere at "

@@ -3,6 +3,8 @@
 
 #include "app/system/terminal.hpp"
 #include "io/text/input_error.hpp"
+#include "scenarios/build/checks.hpp"
+#include "scenarios/build/meshes.hpp"
 
 #include <cmath>
 
@@ -22,19 +24,83 @@ constexpr double contact_frame_bytes = 50.0;  ///< for a contact, compressed (me
 constexpr double metrics_row_bytes = 200.0;
 constexpr double checkpoint_bytes = 400.0; ///< for a sphere (measured); two checkpoints are kept
 
-std::size_t triangle_count(const Model& model)
-{
-    std::size_t count = 0;
-    for (const Wall& wall : model.walls)
-        if (const auto* mesh = std::get_if<Mesh>(&wall.shape)) count += mesh->triangles.size();
-    return count;
-}
+// What a sphere takes in a step, on one thread [s]: falling, and in a flow with many contacts (measured).
+constexpr double fast_sphere_step = 0.1e-6, slow_sphere_step = 0.6e-6;
 
 double poured_count(const Simulation& simulation)
 {
     double count = 0.0;
     for (const Pour& pour : simulation.pours) count += expected_count(pour, simulation.model.materials);
     return count;
+}
+
+double mass(const Simulation& simulation)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < simulation.state.count(); ++i) sum += simulation.state.mass(i);
+    for (const Pour& pour : simulation.pours) {
+        const Materials& materials = simulation.model.materials;
+        sum += expected_count(pour, materials) * pour.mixture.mean_mass(materials);
+    }
+    return sum;
+}
+
+std::string by_axis(const Vec3& extent)
+{
+    return fmt::format("{:.3g} x {:.3g} x {:.3g}", extent.x(), extent.y(), extent.z());
+}
+
+/// A line for something that lies in the scene: how large it is, beside a sphere, and where.
+void print_content(const std::string& what, const Box& box, double diameter, const std::string& more = "")
+{
+    const std::string size = box.empty() ? "without end"
+                                         : fmt::format("{} m = {} d; x {:.3g} to {:.3g}, y {:.3g} to {:.3g}, z {:.3g} "
+                                                       "to {:.3g}",
+                                               by_axis(box.extent()), by_axis(box.extent() / diameter), box.min.x(),
+                                               box.max.x(), box.min.y(), box.max.y(), box.min.z(), box.max.z());
+    say("  {:<24} {}{}\n", what, size, more);
+}
+
+std::string about_mesh(const Wall& wall)
+{
+    const auto* mesh = std::get_if<Mesh>(&wall.shape);
+    if (!mesh) return "";
+    const std::size_t open = open_edges(*mesh);
+    return fmt::format("; {} triangles, {}", mesh->triangles.size(),
+        open == 0 ? "closed" : fmt::format("open: {} edges belong to one triangle only", open));
+}
+
+void print_contents(const OpenedScene& opened)
+{
+    const Model& model = opened.simulation.model;
+    const scene::Scene& scene = opened.scene;
+    const double d = model.mean_diameter;
+    for (std::size_t k = 0; k < scene.fill.size(); ++k) {
+        const scene::FillTable& fill = scene.fill[k];
+        Box box;
+        if (fill.file.empty())
+            box = require_region(fill.region, "").bounds();
+        else
+            for (const Vec3& x : fill.spheres.positions) box.extend(x);
+        print_content(fmt::format("fill {}", k), box, d);
+    }
+    for (const Pour& pour : opened.simulation.pours)
+        print_content(fmt::format("pour '{}'", pour.name), pour.region.bounds(), d);
+    for (std::size_t k = 0; k < model.walls.size(); ++k)
+        print_content(fmt::format("{} '{}'", scene.wall[k].shape, model.walls[k].name), bounds(model.walls[k].shape), d,
+            about_mesh(model.walls[k]));
+    for (std::size_t k = 0; k < model.outlets.size(); ++k)
+        print_content(fmt::format("outlet '{}'", scene.outlet[k].name), model.outlets[k].bounds(), d);
+    say("world: {}\n", opened.report.world);
+}
+
+/// "12 s", "3.4 min", "5.6 h".
+std::string time_in_words(double seconds)
+{
+    if (seconds < 1.0) return "below 1 s";
+    if (seconds < 100.0) return fmt::format("{:.2g} s", seconds);
+    if (seconds < 6000.0) return fmt::format("{:.2g} min", seconds / 60.0);
+    return fmt::format("{:.2g} h", seconds / 3600.0);
 }
 
 /// With all spheres there at once [B]: the state of each and its place in the candidate list, its candidates (twice, as
@@ -72,7 +138,9 @@ void print_needs(const OpenedScene& opened)
 {
     const Simulation& simulation = opened.simulation;
     const double spheres = static_cast<double>(simulation.state.count()) + poured_count(simulation);
-    say("steps: {:.0f}\n", std::ceil(simulation.duration / simulation.model.time_step));
+    const double steps = std::ceil(simulation.duration / simulation.model.time_step);
+    say("time: {:.0f} steps; {} (free fall) to {} (dense flow) on one thread\n", steps,
+        time_in_words(fast_sphere_step * steps * spheres), time_in_words(slow_sphere_step * steps * spheres));
     say("memory: about {:.0f} MB\n", 1e-6 * memory_estimate(simulation, spheres));
     say("disk: up to {:.0f} MB\n", std::ceil(1e-6 * disk_estimate(opened, spheres)));
 }
@@ -107,19 +175,20 @@ void print_scene(const OpenedScene& opened, const OverlapCheck& overlaps)
 {
     const Simulation& simulation = opened.simulation;
     say("{}: {}\n", opened.name, opened.scene.title);
-    say("spheres: {} at the start, {:.0f} poured in; {:.4g} to {:.4g} m in diameter\n", simulation.state.count(),
-        poured_count(simulation), simulation.model.min_diameter, simulation.model.max_diameter);
-    say("walls: {} with {} triangles; materials: {}; outlets: {}; sensors: {}\n", simulation.model.walls.size(),
-        triangle_count(simulation.model), simulation.model.materials.list.size(), simulation.model.outlets.size(),
-        simulation.sensors.size());
+    const Model& model = simulation.model;
+    say("spheres: {} at the start, {:.0f} poured in, {:.4g} kg; {:.4g} to {:.4g} m in diameter, d = {:.4g} m on "
+        "average\n",
+        simulation.state.count(), poured_count(simulation), mass(simulation), model.min_diameter, model.max_diameter,
+        model.mean_diameter);
+    print_contents(opened);
     print_explanations(opened, overlaps);
     print_needs(opened);
 }
 
-void check_scene(const OpenedScene& opened)
+void check_scene(const OpenedScene& opened, bool resolved)
 {
     print_scene(opened, check_overlaps(opened.simulation));
-    say("\n{}", resolved_scene(opened.scene));
+    if (resolved) say("\n{}", resolved_scene(opened.scene));
 }
 
 void list_scenes()

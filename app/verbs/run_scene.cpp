@@ -53,21 +53,26 @@ void advise_to_relax(const OverlapCheck& overlaps, double d)
 /// Incidents told on standard error; all of them are in the summary.
 constexpr std::size_t incidents_told = 5;
 
-/// How a run can go on after an incident, if it can.
-std::string way_past(const Incident& incident, const fs::path& folder)
+/// How to avoid an incident, and how a run can go on after it, where there is a way.
+std::string way_past(const Incident& incident, const fs::path& folder, const std::string& world)
 {
-    const bool may_be_removed = incident.kind == Incident::Kind::escaped && !incident.of_piston();
-    if (!may_be_removed && incident.kind != Incident::Kind::pressed) return "";
-    return fmt::format("; to go on all the same: talus resume {} --set {}", folder.string(),
-        may_be_removed ? "world.on_escape=remove" : "solver.on_no_solution=go_on");
+    if (incident.kind == Incident::Kind::pressed)
+        return fmt::format(
+            "; to go on all the same: talus resume {} --set solver.on_no_solution=go_on", folder.string());
+    if (incident.kind != Incident::Kind::escaped) return "";
+    const std::string wider = fmt::format("; the world is {}: make it larger with [world] 'min' and 'max'", world);
+    if (incident.of_piston()) return wider;
+    return fmt::format("{}, give an [[outlet]] where spheres may leave, or go on without this one: talus resume {} "
+                       "--set world.on_escape=remove",
+        wider, folder.string());
 }
 
-void print_incidents(const RunSummary& summary, const fs::path& folder)
+void print_incidents(const RunSummary& summary, const fs::path& folder, const std::string& world)
 {
     const std::size_t told = std::min(summary.incidents.size(), incidents_told);
     for (std::size_t k = 0; k < told; ++k)
         warn("t = {:.6g} s: {}{}\n", summary.simulated_time, describe(summary.incidents[k], summary.wall_names),
-            k == 0 ? way_past(summary.incidents[k], folder) : "");
+            k == 0 ? way_past(summary.incidents[k], folder, world) : "");
     if (summary.incidents.size() > told) warn("and {} more, see summary.json\n", summary.incidents.size() - told);
 }
 
@@ -78,7 +83,7 @@ ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const std::filesys
     const RunSummary summary = summarise(opened, loop, end);
     write_summary(folder / "summary.json", summary);
     if (verbosity != Verbosity::quiet) print_results(summary);
-    print_incidents(summary, folder);
+    print_incidents(summary, folder, opened.report.world);
     if (!end.incidents.empty()) return ExitCode::physics;
     if (end.signal == 0) return ExitCode::done;
     warn("stopped by SIG{} at t = {:.6g} s after a checkpoint; to go on: talus resume {}\n", sigabbrev_np(end.signal),

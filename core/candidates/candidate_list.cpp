@@ -140,7 +140,8 @@ void CandidateList::persist(Archive& archive)
 void lay_down(
     CandidateList& list, Carried& carried, const CandidateEntries& entries, const State& state, const Model& model)
 {
-    list.tiles = make_tiles(state.position, tile_edge(entries.pairs, state, model), model.periodicity, model.corner);
+    list.tiles =
+        make_tiles(state.position, tile_edge(entries.pairs, state, model), model.periodicity, model.contents.min);
     lay_down_pairs(list, carried.pairs, entries.pairs, model.physics.rolling);
     lay_down_walls(list, carried, entries, model.physics.rolling);
 }

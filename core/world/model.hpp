@@ -55,11 +55,12 @@ struct Model {
     double time_step = 0.0;           ///< h [s]
     Materials materials;
     std::vector<Wall> walls;
-    std::vector<Piston> pistons;   ///< the walls of finite mass
-    std::vector<Region> outlets;   ///< a sphere whose centre enters one leaves the world lawfully
-    Periodicity periodicity;       ///< none unless the scene asks for it
-    Box world;                     ///< a sphere whose centre leaves it elsewhere has escaped
-    Vec3 corner = Vec3::Zero();    ///< of the scene as it begins: tiles and hats are counted from there [m]
+    std::vector<Piston> pistons; ///< the walls of finite mass
+    std::vector<Region> outlets; ///< a sphere whose centre enters one leaves the world lawfully
+    Periodicity periodicity;     ///< none unless the scene asks for it
+    Box world;                   ///< a sphere whose centre leaves it elsewhere has escaped
+    /// Round walls, fills, pours and outlets as the scene begins: tiles and hats are counted from its lower corner.
+    Box contents = {Vec3::Zero(), Vec3::Zero()};
     double speed_limit = infinity; ///< a faster sphere is a blow-up [m/s]
     double mean_diameter = 0.0;    ///< d, of all spheres that the scene makes; the unit of lengths in reports [m]
     double min_diameter = 0.0;

@@ -256,14 +256,17 @@ Grains grain_bed(const Box& box, double diameter, double spacing)
     return grains;
 }
 
+bool has_area(const std::vector<Vec3>& vertices, const std::array<std::int32_t, 3>& triangle)
+{
+    const auto vertex = [&](std::size_t k) -> const Vec3& { return vertices[static_cast<std::size_t>(triangle[k])]; };
+    const Vec3 ab = vertex(1) - vertex(0), ac = vertex(2) - vertex(0);
+    const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+    return ab.cross(ac).norm() > sliver * longest;
+}
+
 Mesh make_mesh(std::vector<Vec3> vertices, std::vector<std::array<std::int32_t, 3>> triangles)
 {
-    std::erase_if(triangles, [&](const auto& t) {
-        const auto vertex = [&](std::size_t k) -> const Vec3& { return vertices[static_cast<std::size_t>(t[k])]; };
-        const Vec3 ab = vertex(1) - vertex(0), ac = vertex(2) - vertex(0);
-        const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
-        return ab.cross(ac).norm() <= sliver * longest;
-    });
+    std::erase_if(triangles, [&](const auto& triangle) { return !has_area(vertices, triangle); });
     std::vector<Vec3> normals;
     for (const auto& [a, b, c] : triangles)
         normals.push_back((vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]).normalized());

@@ -115,7 +115,10 @@ Panels box_panels(const Box& box, const std::vector<std::string>& open);
 /// corner of `box`, which holds their centres; along an axis on which it is flat there is one layer. Always the same.
 Grains grain_bed(const Box& box, double diameter, double spacing);
 
-/// A mesh with its search tree. Triangles that are lines, but for rounding, are dropped.
+/// Whether a triangle is more than a line, but for rounding.
+bool has_area(const std::vector<Vec3>& vertices, const std::array<std::int32_t, 3>& triangle);
+
+/// A mesh with its search tree. Triangles without area are dropped.
 Mesh make_mesh(std::vector<Vec3> vertices, std::vector<std::array<std::int32_t, 3>> triangles);
 
 } // namespace talus

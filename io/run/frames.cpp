@@ -177,7 +177,7 @@ void FrameWriter::add_walls_frame(Series& series, const Model& model, const Stat
     vtkNew<vtkCellArray> cells;
     for (std::size_t wall = 0; wall < model.walls.size(); ++wall) {
         if (!placed[wall].stands() || placed[wall].moves() != moving) continue;
-        const TriangleSoup surface = wall_surface(model.walls[wall].shape, model.world);
+        const TriangleSoup surface = wall_surface(model.walls[wall].shape, model.contents);
         const Pose& pose = placed[wall].pose();
         const auto first = static_cast<vtkIdType>(vertices.size());
         for (const Vec3& vertex : surface.vertices) vertices.push_back(pose(vertex));

@@ -69,17 +69,12 @@ void append_globe(TriangleSoup& soup, const Vec3& center, double radius)
 }
 
 struct Triangulate {
-    const Box& world;
+    const Box& contents;
 
     TriangleSoup operator()(const Plane& plane) const
     {
-        Vec3 center = plane.point;
-        double width = 0.0;
-        for (int i = 0; i < 3; ++i) {
-            if (!std::isfinite(world.extent()[i])) continue;
-            center[i] = world.center()[i];
-            width = std::max(width, world.extent()[i]);
-        }
+        Vec3 center = contents.center();
+        const double width = 2.0 * contents.extent().maxCoeff();
         center -= (center - plane.point).dot(plane.normal) * plane.normal;
         const Vec3 a = width * any_perpendicular(plane.normal);
         const Vec3 b = plane.normal.cross(a);
@@ -124,9 +119,9 @@ struct Triangulate {
 
 } // namespace
 
-TriangleSoup wall_surface(const Shape& shape, const Box& world)
+TriangleSoup wall_surface(const Shape& shape, const Box& contents)
 {
-    return std::visit(Triangulate{world}, shape);
+    return std::visit(Triangulate{contents}, shape);
 }
 
 } // namespace talus

@@ -7,8 +7,9 @@
 namespace talus
 {
 
-/// Triangles that show a wall: round shapes in 64 segments, a plane as a square as wide as the widest finite extent of
-/// the world, round the world's centre.
-TriangleSoup wall_surface(const Shape& shape, const Box& world);
+/// Triangles that show a wall: round shapes in 64 segments, a plane as a square twice as wide as what there is to be
+/// seen, round its centre.
+/// @param contents what there is to be seen
+TriangleSoup wall_surface(const Shape& shape, const Box& contents);
 
 } // namespace talus

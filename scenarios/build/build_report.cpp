@@ -2,8 +2,10 @@
 #include "scenarios/build/build_report.hpp"
 
 #include "core/packs/law.hpp"
+#include "scenarios/build/meshes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <set>
@@ -68,6 +70,21 @@ std::string explain_model(const Model& model)
     return models + (leaves_out.empty() ? "" : "; leaves out " + leaves_out);
 }
 
+std::string explain_world(const Box& world)
+{
+    std::string bounds;
+    for (int d = 0; d < 3; ++d) {
+        const double low = world.min[d], high = world.max[d];
+        const bool begins = std::isfinite(low), ends = std::isfinite(high);
+        bounds += std::string(d > 0 ? ", " : "") + "xyz"[d];
+        bounds += begins && ends ? text(" from %.4g to %.4g", low, high)
+                  : begins       ? text(" from %.4g up", low)
+                  : ends         ? text(" up to %.4g", high)
+                                 : " without end";
+    }
+    return bounds + ", in m";
+}
+
 std::string forecast_overlap(const Simulation& simulation)
 {
     const auto& model = simulation.model;
@@ -92,6 +109,7 @@ std::string forecast_overlap(const Simulation& simulation)
 std::vector<std::string> warnings_of(const scene::Scene& scene, const StepChoice& choice, const Model& model)
 {
     constexpr double far_above = 10.0;
+    constexpr double wide = 1000.0;
     constexpr double tight = 1.5; // at 1.4 stacks of a lattice stood, at 1.8 they fell
     std::vector<std::string> warnings;
     if (choice.given && choice.step > far_above * choice.automatic())
@@ -104,6 +122,17 @@ std::vector<std::string> warnings_of(const scene::Scene& scene, const StepChoice
                 text("fill[%d]: without rotation the stacks of so tight a lattice stay upright; give it a "
                      "'spacing' of 1.8, or arrange it at random",
                     static_cast<int>(k)));
+    for (const Wall& wall : model.walls) {
+        const Box box = bounds(wall.shape);
+        const double size = box.empty() ? 0.0 : box.extent().maxCoeff();
+        if (size > wide * model.mean_diameter)
+            warnings.push_back(
+                "wall '" + wall.name + "' " +
+                text("is %.4g m long, %.2g diameters of a sphere", size, size / model.mean_diameter) +
+                (std::holds_alternative<Mesh>(wall.shape) ? "; an STL file in millimetres needs scale = 0.001" : ""));
+    }
+    for (const auto& table : scene.wall)
+        if (std::string left_out = left_out_of_mesh(table); !left_out.empty()) warnings.push_back(std::move(left_out));
     return warnings;
 }
 

@@ -83,11 +83,11 @@ Model build_model(const scene::Scene& scene, const Materials& materials, const s
     model.physics = needed_physics(scene, materials);
     find_diameters(model, fills, pours);
     model.periodicity = build_periodicity(scene.world, model.max_diameter);
-    model.walls = build_walls(scene, materials, model.periodicity);
+    model.walls = build_walls(scene, materials, model.periodicity, model.mean_diameter);
     model.pistons = build_pistons(scene, model.walls, model.periodicity);
     model.outlets = build_outlets(scene);
     model.world = build_world(scene, model, fills, pours);
-    model.corner = scene_corner(model, fills, pours);
+    model.contents = build_contents(model, fills, pours);
     require_inside_world(fills, pours, model.world);
     return model;
 }
@@ -128,7 +128,8 @@ BuiltScene build_scene(const scene::Scene& scene)
     model.solver.push_out_speed = push_out_speed(scene.solver, model);
 
     BuildReport report{accuracy.explanation, choice.explanation, explain_step(step, model.min_diameter),
-        explain_model(model), forecast_overlap(simulation), warnings_of(scene, step, model)};
+        explain_model(model), explain_world(model.world), forecast_overlap(simulation),
+        warnings_of(scene, step, model)};
     return {std::move(simulation), std::move(report)};
 }
 

@@ -3,6 +3,7 @@
 
 #include "scenarios/build/checks.hpp"
 #include "scenarios/build/materials.hpp"
+#include "scenarios/build/meshes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@ Grains build_grains(const scene::WallTable& w, const Box& box, const std::string
     return grain_bed(box, w.diameter, spacing);
 }
 
-Shape build_shape(const scene::WallTable& w, std::size_t index)
+Shape build_shape(const scene::WallTable& w, std::size_t index, double diameter)
 {
     const auto key = [&](const char* name) { return key_path("wall", index, name); };
     if (w.shape == "plane") return Plane{w.point, unit_vector(w.normal, key("normal"))};
@@ -35,11 +36,7 @@ Shape build_shape(const scene::WallTable& w, std::size_t index)
         return Disk{w.center, unit_vector(w.normal, key("normal")), w.radius, w.hole_radius};
     }
     if (w.shape == "grains") return build_grains(w, require_layer(w.min, w.max, key("max")), key("diameter"));
-    if (w.shape == "mesh") {
-        if (w.triangles.empty())
-            throw SceneError(key("mesh"), "a wall of shape \"mesh\" needs an STL file with triangles");
-        return make_mesh(w.vertices, w.triangles);
-    }
+    if (w.shape == "mesh") return build_mesh(w, diameter, key("mesh"));
     require_positive(w.height, key("height"), "the height of a " + w.shape);
     const Vec3 axis = unit_vector(w.axis, key("axis"));
     if (w.shape == "cylinder") {
@@ -140,13 +137,14 @@ Piston build_piston(const scene::WallTable& w, std::size_t index, const Shape& s
 
 } // namespace
 
-std::vector<Wall> build_walls(const scene::Scene& scene, const Materials& materials, const Periodicity& periodicity)
+std::vector<Wall> build_walls(
+    const scene::Scene& scene, const Materials& materials, const Periodicity& periodicity, double diameter)
 {
     std::vector<Wall> walls;
     for (std::size_t k = 0; k < scene.wall.size(); ++k) {
         const auto& w = scene.wall[k];
         const int material = material_index(materials, w.material, key_path("wall", k, "material"));
-        auto shape = build_shape(w, k);
+        auto shape = build_shape(w, k, diameter);
         walls.push_back({w.name, std::move(shape), material, w.appear_at, w.remove_at, build_motion(w, k)});
         require_seamless(walls.back(), periodicity, k);
     }

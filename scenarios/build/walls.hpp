@@ -10,8 +10,10 @@
 namespace talus
 {
 
-/// The walls in the order of the scene. @throws SceneError where a shape is empty or a material unknown
-std::vector<Wall> build_walls(const scene::Scene& scene, const Materials& materials, const Periodicity& periodicity);
+/// The walls in the order of the scene. @param diameter of the spheres [m]
+/// @throws SceneError where a shape is empty or a material unknown
+std::vector<Wall> build_walls(
+    const scene::Scene& scene, const Materials& materials, const Periodicity& periodicity, double diameter);
 
 /// The walls of finite mass, in their order; each of these gets the index of its piston. Their mass is spread evenly
 /// over the box round them.

@@ -56,15 +56,45 @@ Periodicity build_periodicity(const scene::WorldTable& table, double max_diamete
 namespace
 {
 
+/// Where a wall is during the run.
+std::vector<Pose> poses_of(const Wall& wall, double duration)
+{
+    if (wall.motion.empty()) return {Pose{}};
+    constexpr int samples = 200;
+    std::vector<Pose> poses;
+    for (int k = 0; k <= samples; ++k) poses.push_back(pose_at(wall.motion, duration * k / samples));
+    return poses;
+}
+
 /// Round all places of a wall during the run; a plane has none and gives an empty box.
 Box swept_bounds(const Wall& wall, double duration)
 {
     const Box still = bounds(wall.shape);
-    if (wall.motion.empty() || still.empty()) return still;
-    constexpr int samples = 200;
     Box swept;
-    for (int k = 0; k <= samples; ++k) swept.extend(placed(pose_at(wall.motion, duration * k / samples), still));
+    if (!still.empty())
+        for (const Pose& pose : poses_of(wall, duration)) swept.extend(placed(pose, still));
     return swept;
+}
+
+/// Takes the levels of a plane in where it stands across an axis, and opens the sides to which spheres may roll on it.
+void take_in(Box& box, const Wall& wall, const Vec3& gravity, double duration)
+{
+    const auto* plane = std::get_if<Plane>(&wall.shape);
+    if (!plane) return;
+    constexpr double across = 1.0 - 1e-9;
+    const bool bears = plane->normal.dot(gravity) < 0.0;
+    for (int d = 0; d < 3; ++d) {
+        if (std::abs(plane->normal[d]) > across) {
+            for (const Pose& pose : poses_of(wall, duration)) {
+                const double level = pose(plane->point)[d];
+                box.min[d] = std::min(box.min[d], level);
+                box.max[d] = std::max(box.max[d], level);
+            }
+        } else if (bears && gravity[d] == 0.0) {
+            box.min[d] = -infinity;
+            box.max[d] = infinity;
+        }
+    }
 }
 
 /// Something that lies in the scene, and the key that says where.
@@ -100,14 +130,10 @@ Box around(const std::vector<Content>& list)
     return box;
 }
 
-/// Beyond, places are told apart by 1e-7 diameters at best, and cells could no more be counted.
-constexpr double farthest_place = 1e9; ///< diameters
-
 void require_within_reach(const std::vector<Content>& list, double diameter)
 {
     for (const Content& content : list) {
-        const double farthest = content.bounds.min.cwiseAbs().cwiseMax(content.bounds.max.cwiseAbs()).maxCoeff();
-        if (farthest > farthest_place * diameter)
+        if (!is_within_reach(content.bounds.min, diameter) || !is_within_reach(content.bounds.max, diameter))
             throw SceneError(content.key, "it reaches more than 1e9 diameters from the origin, where numbers are too "
                                           "coarse for contacts; bring the scene nearer");
     }
@@ -115,11 +141,17 @@ void require_within_reach(const std::vector<Content>& list, double diameter)
 
 } // namespace
 
-Vec3 scene_corner(const Model& model, const std::vector<Fill>& fills, const std::vector<Pour>& pours)
+bool is_within_reach(const Vec3& place, double diameter)
+{
+    constexpr double farthest = 1e9; // diameters: beyond, places are told apart by 1e-7 of them at best
+    return place.cwiseAbs().maxCoeff() <= farthest * diameter;
+}
+
+Box build_contents(const Model& model, const std::vector<Fill>& fills, const std::vector<Pour>& pours)
 {
     const auto list = contents(model, fills, pours, 0.0);
     require_within_reach(list, model.mean_diameter);
-    return list.empty() ? Vec3::Zero() : around(list).min;
+    return around(list);
 }
 
 Box build_world(
@@ -128,7 +160,9 @@ Box build_world(
     const Vec3 &min = scene.world.min, &max = scene.world.max;
     if (!((min.array() < max.array()).all()))
         throw SceneError("world.max", "the world is empty: every coordinate of 'min' must be below that of 'max'");
-    Box box = around(contents(model, fills, pours, scene.time.duration)).grown(5.0 * model.max_diameter);
+    Box box = around(contents(model, fills, pours, scene.time.duration));
+    for (const Wall& wall : model.walls) take_in(box, wall, model.gravity, scene.time.duration);
+    box = box.grown(5.0 * model.max_diameter);
     for (int d = 0; d < 3; ++d) {
         if (model.gravity[d] < 0.0) box.max[d] = infinity;
         if (model.gravity[d] > 0.0) box.min[d] = -infinity;

@@ -17,13 +17,18 @@ void find_diameters(Model& model, const std::vector<Fill>& fills, const std::vec
 /// @throws SceneError where a corner is not given or the cell is shorter than four spheres
 Periodicity build_periodicity(const scene::WorldTable& table, double max_diameter);
 
-/// The lower corner of walls, fills, pours and outlets as the scene begins, whatever its duration.
+/// Whether a place is near enough to the origin for numbers to tell places apart, and for cells to be counted.
+/// @param diameter of the spheres [m]
+bool is_within_reach(const Vec3& place, double diameter);
+
+/// The box round walls, fills, pours and outlets as the scene begins, whatever its duration.
 /// @pre the model has its walls, outlets and diameters
 /// @throws SceneError where one of them lies too far from the origin
-Vec3 scene_corner(const Model& model, const std::vector<Fill>& fills, const std::vector<Pour>& pours);
+Box build_contents(const Model& model, const std::vector<Fill>& fills, const std::vector<Pour>& pours);
 
-/// The box that no sphere may leave: that of walls, fills, pours and outlets, grown by five diameters and open upwards,
-/// where the scene does not say.
+/// The box that no sphere may leave, where the scene does not say: that of walls on their ways, fills, pours and
+/// outlets, with planes that stand across an axis, grown by five diameters; open upwards, and to the sides where a
+/// plane bears spheres, for they may roll on it as far as they can.
 /// @pre the model has its gravity, walls, outlets and diameters
 /// @throws SceneError where it is empty
 Box build_world(

@@ -27,7 +27,8 @@ TEST_CASE("wrong arguments end with 2 and one sentence", "[app][command line]")
 TEST_CASE("every verb has help with an example", "[app][command line]")
 {
     const Workplace place;
-    const std::string verb = GENERATE(as<std::string>{}, "run", "resume", "check", "keys", "list", "dump", "solve", "study");
+    const std::string verb =
+        GENERATE(as<std::string>{}, "run", "resume", "check", "keys", "list", "dump", "solve", "study");
     const Outcome outcome = place.talus(verb + " --help");
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.out, Contains("Example: talus " + verb));
@@ -62,11 +63,31 @@ TEST_CASE("check says what a scene holds and needs, and writes nothing", "[app][
     const Outcome outcome = place.talus("check scene.toml --until 0.1");
     CHECK(outcome.exit_code == 0);
     CHECK(outcome.err.empty());
-    CHECK_THAT(
-        outcome.out, Contains("8 at the start") && Contains("walls: 1 ") && Contains("overlaps at the start: none"));
-    CHECK_THAT(outcome.out, Contains("memory: about") && Contains("disk: up to") && Contains("steps: "));
-    CHECK_THAT(outcome.out, Contains("duration = 0.1 ") && Contains("on_escape = \"stop\""));
+    CHECK_THAT(outcome.out, Contains("8 at the start, 0 poured in, 0.01047 kg") &&
+                                Contains("'tray'               0.05 x 0.05 x 0.05 m = 5 x 5 x 5 d; x 0 to 0.05") &&
+                                Contains("world: x from -0.05 to 0.1, y from -0.05 to 0.1, z from -0.05 up, in m") &&
+                                Contains("overlaps at the start: none"));
+    CHECK_THAT(outcome.out, Contains("memory: about") && Contains("disk: up to") && Contains("time: 436 steps; "));
+    CHECK_THAT(outcome.out, !Contains("duration = "));
     CHECK_FALSE(place.exists("out"));
+    const Outcome resolved = place.talus("check scene.toml --until 0.1 --resolved");
+    CHECK_THAT(
+        resolved.out, StartsWith(outcome.out) && Contains("duration = 0.1 ") && Contains("on_escape = \"stop\""));
+}
+
+TEST_CASE("grains that roll away on a plane stay in the world", "[app][command line]")
+{
+    const Workplace place;
+    const std::string plane = replaced(beads_in_a_box, "count = 8", "count = 8\nvelocity = [3, 0, 0]");
+    const Outcome outcome = place.run(plane + R"(
+[[wall]]
+name = "floor"
+shape = "plane"
+material = "glass"
+)",
+        "--set wall.tray.remove_at=0 --until 0.2");
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 0);
 }
 
 TEST_CASE("two fills in one place are refused, for they cannot both be there without overlap", "[app][command line]")

@@ -62,7 +62,7 @@ World playground(const Vec3& place, Stabilisation law)
 {
     World world = production_world({.friction = 0.5, .restitution = 0.5}, law);
     world.model.world = {place - Vec3::Constant(5.0), place + Vec3::Constant(5.0)};
-    world.model.corner = place;
+    world.model.contents = Box{place, place};
     const double touching = r - 1e-5 * d;
     world.add_plane(place, Vec3::UnitZ());
     add_pyramid(world, place);
@@ -85,7 +85,7 @@ void move_away(Simulation& simulation, const Vec3& way)
     for (Vec3& x : simulation.state.position) x += way;
     for (auto& panel : std::get<Panels>(simulation.model.walls[0].shape).rectangles) panel.corner += way;
     simulation.model.world = simulation.model.world.shifted(way);
-    simulation.model.corner += way;
+    simulation.model.contents = simulation.model.contents.shifted(way);
     for (Box& box : simulation.network.list.listed_box) box = box.shifted(way);
     simulation.network.list.listed_around = simulation.network.list.listed_around.shifted(way);
 }
