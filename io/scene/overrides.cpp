@@ -3,6 +3,7 @@
 
 #include "io/text/field_kind.hpp"
 #include "io/text/input_error.hpp"
+#include "io/text/quantity.hpp"
 #include "io/text/sentence.hpp"
 #include "io/text/toml_value.hpp"
 
@@ -50,13 +51,14 @@ bool is_toml_value(const std::string& text)
     }
 }
 
-/// A word that may stand for a string without its quotes: letters first, or a percentage, and nothing that TOML would
-/// read as structure.
+/// A word that may stand for a string without its quotes: letters first, a percentage or a number with a unit, and
+/// nothing that TOML would read as structure.
 bool is_bare_word(const std::string& text)
 {
     const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
     if (text.empty()) return false;
-    return (is_letter(text.front()) || text.front() == '/' || text.front() == '.' || text.back() == '%') &&
+    return (is_letter(text.front()) || is_quantity(text) || text.front() == '/' || text.front() == '.' ||
+               text.back() == '%') &&
            text.find_first_of("'\"=[]{},#\\") == std::string::npos;
 }
 

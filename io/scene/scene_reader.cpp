@@ -3,6 +3,7 @@
 
 #include "io/text/field_kind.hpp"
 #include "io/text/input_error.hpp"
+#include "io/text/quantity.hpp"
 #include "io/text/sentence.hpp"
 #include "io/text/toml_value.hpp"
 
@@ -90,7 +91,9 @@ private:
     void read_field(const toml::node& node, const std::string& path, const Key& key, scene::DiameterTable& field)
     {
         if (node.is_table()) return read_field<scene::DiameterTable>(node, path, key, field);
-        if (!node.is_number()) refuse_value(node, key.name, "a number [m] or a table with a distribution");
+        const auto* text = node.as_string();
+        if (!node.is_number() && !(text && is_quantity(text->get())))
+            refuse_value(node, key.name, "a number [m] or a table with a distribution");
         const scene::Allowed positive = scene::above(0.0);
         field.distribution = "constant";
         read_value(node, Key{key.name, positive, key.unit}, field.value);

@@ -3,6 +3,7 @@
 
 #include "io/text/input_error.hpp"
 #include "io/text/input_file.hpp"
+#include "io/text/quantity.hpp"
 #include "io/text/sentence.hpp"
 
 #include <fmt/format.h>
@@ -35,11 +36,33 @@ bool is_allowed(double number, const scene::Allowed& allowed)
     return (allowed.open ? number > allowed.min : number >= allowed.min) && number <= allowed.max;
 }
 
-/// The number, whole or not, that a node is, if it is allowed.
-std::optional<double> allowed_number(const toml::node& node, const scene::Allowed& allowed)
+/// Refuses numbers whose products with others of a scene would be none.
+void require_sensible(double number, const toml::node& node, const Key& key)
 {
-    const auto number = node.is_number() ? node.value<double>() : std::nullopt;
-    return number && is_allowed(*number, allowed) ? number : std::nullopt;
+    constexpr double largest = 1e30, smallest = 1e-30;
+    const double size = std::abs(number);
+    if (std::isfinite(number) && size > largest)
+        throw InputError(fmt::format("{}: '{}' is {:.3g}, and numbers of a scene are at most 1e30 in size",
+            place_in(node.source()), key.name, number));
+    if (key.allowed.open && key.allowed.min == 0.0 && size > 0.0 && size < smallest)
+        throw InputError(fmt::format("{}: '{}' is {:.3g}, and what must be above 0 is at least 1e-30",
+            place_in(node.source()), key.name, number));
+}
+
+/// The number that a node is, whole or not, or as text with a unit, if it is allowed.
+/// @param unit that of the key, or of the one number of several
+std::optional<double> allowed_number(const toml::node& node, const Key& key, std::string_view unit)
+{
+    const auto* text = node.as_string();
+    const auto number = node.is_number() ? node.value<double>() : text ? quantity_in(text->get(), unit) : std::nullopt;
+    if (!number) return std::nullopt;
+    require_sensible(*number, node, key);
+    return is_allowed(*number, key.allowed) ? number : std::nullopt;
+}
+
+std::optional<double> allowed_number(const toml::node& node, const Key& key)
+{
+    return allowed_number(node, key, key.unit);
 }
 
 bool is_allowed(const std::string& text, const scene::Allowed& allowed)
@@ -177,7 +200,7 @@ void read_value(const toml::node& node, const Key& key, std::int64_t& field)
 
 void read_value(const toml::node& node, const Key& key, double& field)
 {
-    const auto number = allowed_number(node, key.allowed);
+    const auto number = allowed_number(node, key);
     if (!number) refuse_value(node, key.name, expected_value(key, field));
     field = *number;
 }
@@ -196,7 +219,7 @@ void read_value(const toml::node& node, const Key& key, Vec3& field)
     if (!array || array->size() != 3) refuse_value(node, key.name, expected);
     for (int i = 0; i < 3; ++i) {
         const toml::node& component = (*array)[static_cast<std::size_t>(i)];
-        const auto number = allowed_number(component, key.allowed);
+        const auto number = allowed_number(component, key);
         if (!number) refuse_value(component, key.name, expected);
         field[i] = *number;
     }
@@ -205,13 +228,15 @@ void read_value(const toml::node& node, const Key& key, Vec3& field)
 void read_value(const toml::node& node, const Key& key, scene::NumberOrName& field)
 {
     const std::string expected = expected_value(key, field);
-    if (const auto* text = node.as_string()) {
-        if (!is_allowed(text->get(), key.allowed)) refuse_name(node, key, expected);
+    const auto* text = node.as_string();
+    if (text && is_allowed(text->get(), key.allowed)) {
         field = {0.0, text->get()};
-    } else {
-        const auto number = allowed_number(node, key.allowed);
-        if (!number) refuse_value(node, key.name, expected);
+    } else if (const auto number = allowed_number(node, key)) {
         field = {*number, ""};
+    } else if (text) {
+        refuse_name(node, key, expected);
+    } else {
+        refuse_value(node, key.name, expected);
     }
 }
 
@@ -239,9 +264,10 @@ void read_value(const toml::node& node, const Key& key, std::vector<std::string>
     }
 }
 
-/// Reads rows of so many numbers each, and hands each row to `add`.
+/// Reads rows of so many numbers each, in these units, and hands each row to `add`.
 template <std::size_t columns>
-void read_rows(const toml::node& node, const Key& key, const std::string& expected, auto&& add)
+void read_rows(const toml::node& node, const Key& key, const std::array<std::string_view, columns>& units,
+    const std::string& expected, auto&& add)
 {
     const auto* array = node.as_array();
     if (!array) refuse_value(node, key.name, expected);
@@ -250,7 +276,7 @@ void read_rows(const toml::node& node, const Key& key, const std::string& expect
         if (!row || row->size() != columns) refuse_value(element, key.name, expected);
         std::array<double, columns> numbers;
         for (std::size_t k = 0; k < columns; ++k) {
-            const auto number = allowed_number((*row)[k], key.allowed);
+            const auto number = allowed_number((*row)[k], key, units[k]);
             if (!number) refuse_value((*row)[k], key.name, expected);
             numbers[k] = *number;
         }
@@ -261,7 +287,7 @@ void read_rows(const toml::node& node, const Key& key, const std::string& expect
 void read_value(const toml::node& node, const Key& key, std::vector<scene::Waypoint>& field)
 {
     field.clear();
-    read_rows<4>(node, key, expected_value(key, field), [&](const std::array<double, 4>& row) {
+    read_rows<4>(node, key, {"s", "m", "m", "m"}, expected_value(key, field), [&](const std::array<double, 4>& row) {
         field.push_back({row[0], Vec3(row[1], row[2], row[3])});
     });
 }
@@ -269,12 +295,12 @@ void read_value(const toml::node& node, const Key& key, std::vector<scene::Waypo
 /// A number alone is short for a load that never changes.
 void read_value(const toml::node& node, const Key& key, std::vector<scene::LoadRow>& field)
 {
-    if (const auto force = allowed_number(node, key.allowed)) {
+    if (const auto force = allowed_number(node, key)) {
         field = {{0.0, *force}};
         return;
     }
     field.clear();
-    read_rows<2>(node, key, expected_value(key, field), [&](const std::array<double, 2>& row) {
+    read_rows<2>(node, key, {"s", "N"}, expected_value(key, field), [&](const std::array<double, 2>& row) {
         field.push_back({row[0], row[1]});
     });
 }

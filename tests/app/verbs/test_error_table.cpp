@@ -70,6 +70,17 @@ Situation pour(const std::string& text, const std::string& keys)
         check};
 }
 
+/// The scene with a mesh of one facet.
+Situation stl(const std::string& text, const std::string& corners)
+{
+    return {text,
+        "printf 'solid\\nfacet normal 0 0 0 outer loop " + corners +
+            " endloop endfacet\\nendsolid\\n' > cup.stl; printf '[[wall]]\\nname = \"w\"\\nmaterial = \"glass\"\\nmesh "
+            "= "
+            "\"cup.stl\"\\n' >> scene.toml",
+        check};
+}
+
 /// A contact problem of others. @param before "{}" stands for its file
 Situation problem(const std::string& text, std::string before, const std::string& arguments)
 {
@@ -113,6 +124,9 @@ const std::vector<Situation> situations = {
     edited("a wrong type", "duration = 0.05", "duration = \"long\""),
     edited("a value out of range", "density = 2500.0", "density = -1.0"),
     edited("a value that is not a number", "density = 2500.0", "density = nan"),
+    edited("a number beyond all sense", "density = 2500.0", "density = 1e300"),
+    edited("a number too small for anything", "diameter = 0.01", "diameter = 1e-200"),
+    edited("a number with the unit of another", "diameter = 0.01", "diameter = \"10 kg\""),
     edited("a whole number is wanted", "count = 8", "count = 8.5"),
     edited("a vector is wanted", "min = \\[0, 0, 0\\]", "min = [0, 0]"),
     edited("a name that is not allowed", "^shape = \"box\"", "shape = \"bowl\""),
@@ -153,6 +167,8 @@ const std::vector<Situation> situations = {
         "echo 'a letter to a friend' > cup.stl; printf '[[wall]]\\nname = \"w\"\\n"
         "material = \"glass\"\\nmesh = \"cup.stl\"\\n' >> scene.toml",
         check},
+    stl("a mesh of lines", "vertex 0 0 0 vertex 1 0 0 vertex 2 0 0"),
+    stl("a mesh with a corner beyond all sense", "vertex 0 0 0 vertex 1 0 0 vertex 0 0 1e300"),
     {"a mesh that ends too early",
         "printf 'solid cup\\nfacet normal 0 0 1\\nouter loop\\nvertex 0 0' > cup.stl; printf "
         "'[[wall]]\\nname = \"w\"\\nmaterial = \"glass\"\\nmesh = \"cup.stl\"\\n' >> scene.toml",

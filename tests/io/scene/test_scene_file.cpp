@@ -6,8 +6,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <numbers>
+
 using namespace talus;
 using namespace talus::test;
+using Catch::Matchers::Contains;
 
 namespace
 {
@@ -51,6 +54,47 @@ TEST_CASE("a wall's mesh is read from beside the scene, scaled and then moved", 
     const scene::WallTable funnel = read_scene(folder.write("scene.toml", full_scene)).scene.wall.at(1);
     REQUIRE(funnel.triangles.size() == 1);
     CHECK(funnel.vertices[static_cast<std::size_t>(funnel.triangles[0][1])].isApprox(Vec3(1, 0, 1)));
+}
+
+TEST_CASE("numbers may be texts with their unit, and are written in SI units", "[scene_file]")
+{
+    const SceneFolder folder;
+    const auto path = folder.write("scene.toml", R"(
+[time]
+duration = "2 min"
+step = "0.1 ms"
+[materials.a]
+density = "2.5 g/cm3"
+[[fill]]
+material = 'a'
+count = 1
+diameter = "5 mm"
+region = { max = ["10 cm", 1, "1 km"] }
+[[wall]]
+name = "w"
+shape = "plane"
+material = "a"
+[[wall.motion]]
+kind = "turn"
+axis = [0, 0, 1]
+rate = "30 rpm"
+[[wall.motion]]
+kind = "table"
+table = [["1 min", "1 mm", 0, 0]]
+)");
+    const auto scene =
+        read_scene(path, {"fill.0.velocity=[0, 0, '-3.6 km/h']", "world.gravity=[0, 0, '-981 cm/s2']"}).scene;
+    CHECK(scene.time.duration == Approx(120.0));
+    CHECK(scene.time.step.number == Approx(1e-4));
+    CHECK(scene.materials[0].density == Approx(2500.0));
+    CHECK(scene.fill[0].diameter.value == Approx(0.005));
+    CHECK(scene.fill[0].region.max.isApprox(Vec3(0.1, 1, 1000)));
+    CHECK(scene.fill[0].velocity.z() == Approx(-1.0));
+    CHECK(scene.world.gravity.z() == Approx(-9.81));
+    CHECK(scene.wall[0].motion[0].rate == Approx(std::numbers::pi));
+    CHECK(scene.wall[0].motion[1].table[0].time == Approx(60.0));
+    CHECK(scene.wall[0].motion[1].table[0].shift.x() == Approx(0.001));
+    CHECK_THAT(resolved_scene(scene), Contains("duration = 120.0  # s") && Contains("density = 2500.0  # kg/m3"));
 }
 
 TEST_CASE("the place of a key is where it stands, or the table around it", "[scene_file]")
