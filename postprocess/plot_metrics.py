@@ -7,6 +7,7 @@
 Exit codes: 0 done, 2 wrong arguments or no such run, 4 the figure cannot be written.
 """
 import argparse
+import re
 import sys
 from pathlib import Path
 
@@ -32,17 +33,26 @@ RUN_PANELS = [
     ("Energy of motion and of contacts", "J", "log", {"kinetic_energy_J": "kinetic", "contact_energy_J": "contacts"}),
     ("Potential energy", "J", "linear", {"potential_energy_J": "potential"}),
 ]
-UNITS = {"_kg": "kg", "_deg": "degrees", "_m": "m"}  # by the end of a column's name; others are plain numbers
+# Unit by the end of a column's name, longer ends first; other columns are plain numbers.
+UNITS = {"_m2_per_s2": "m²/s²", "_kg_per_s": "kg/s", "_m_per_s": "m/s", "_N_m": "N m", "_deg": "degrees", "_kg": "kg",
+         "_Pa": "Pa", "_m": "m", "_N": "N"}
+COMPONENT = re.compile(r"_([xyz]{1,2})$")
 
 
 def sensor_panels(run, columns):
-    """One panel for each column <sensor>_<quantity>_<unit> of the sensors of the scene."""
+    """One panel for each quantity of the sensors of the scene, whose columns are <sensor>_<quantity>_<unit>; the
+    components of a vector or tensor, _x or _yz, go into one."""
     names = tuple(f"{sensor['name']}_" for sensor in run.scene().get("sensor", []))
+    panels = {}
     for column in columns:
         if column.startswith(names):
             ending = next((ending for ending in UNITS if column.endswith(ending)), "")
-            title = column.removesuffix(ending).replace("_", " ")
-            yield title, UNITS.get(ending, "number"), "linear", {column: title}
+            quantity = column.removesuffix(ending)
+            component = COMPONENT.search(quantity)
+            title = COMPONENT.sub("", quantity).replace("_", " ")
+            curves = panels.setdefault((title, UNITS.get(ending, "number")), {})
+            curves[column] = component[1] if component else title
+    return [(title, unit, "linear", curves) for (title, unit), curves in panels.items()]
 
 
 def sensor_results(run):
