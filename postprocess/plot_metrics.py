@@ -60,7 +60,8 @@ def sensor_results(run):
     for sensor, quantities in run.summary().get("sensors", {}).items():
         numbers = [f"{name.replace('_', ' ')} {number['value']:.4g} ± {number['spread']:.2g} {number['unit']}"
                    for name, number in quantities.items() if number["value"] is not None and number["spread"] is not None]
-        yield f"{sensor}: {', '.join(numbers) or 'no result'}"
+        silences = (number["silence"] for number in quantities.values() if "silence" in number)
+        yield f"{sensor}: {', '.join(numbers) or next(silences, 'no result')}"
 
 
 def draw_panel(axes, time, metrics, panel):

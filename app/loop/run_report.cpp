@@ -67,8 +67,27 @@ TimingSummary summarise_timing(const RunLoop& loop)
 void print_sensors(const RunSummary& summary)
 {
     for (const SensorSummary& sensor : summary.sensors)
-        for (const Measurement& m : sensor.results)
-            say("  {:<28} {:.5g} ± {:.2g} {}\n", fmt::format("{} {}", sensor.name, m.name), m.value, m.spread, m.unit);
+        for (const Measurement& m : sensor.results) {
+            const std::string name = fmt::format("{} {}", sensor.name, m.name);
+            if (!std::isfinite(m.value))
+                say("  {:<28} {}\n", name, sensor.silence);
+            else if (!std::isfinite(m.spread))
+                say("  {:<28} {:.5g} {}, from too few samples for a spread\n", name, m.value, m.unit);
+            else
+                say("  {:<28} {:.5g} ± {:.2g} {}\n", name, m.value, m.spread, m.unit);
+        }
+}
+
+/// What a sensor has to say at the end of a run, and if not all of it are numbers, why.
+SensorSummary summarise(const Sensor& sensor, const scene::SensorTable& table, double time)
+{
+    SensorSummary summary{sensor.name, sensor.results(), ""};
+    if (std::ranges::all_of(summary.results, [](const Measurement& m) { return std::isfinite(m.value); }))
+        return summary;
+    summary.silence = table.from > time
+                          ? fmt::format("it averages from {:.4g} s on, and the run ended at {:.4g} s", table.from, time)
+                          : sensor.silence();
+    return summary;
 }
 
 /// "20 of 30 spheres", "0.2 of 0.3 kg".
@@ -147,7 +166,8 @@ RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const RunEn
     summary.steps = simulation.state.steps;
     summary.ledger = particle_ledger(simulation, end.incidents);
     summary.pours = summarise_pours(simulation);
-    for (const auto& sensor : simulation.sensors) summary.sensors.push_back({sensor->name, sensor->results()});
+    for (std::size_t k = 0; k < simulation.sensors.size(); ++k)
+        summary.sensors.push_back(summarise(*simulation.sensors[k], opened.scene.sensor[k], simulation.state.time));
     summary.error = loop.statistics().error(simulation.model);
     summary.timing = summarise_timing(loop);
     return summary;

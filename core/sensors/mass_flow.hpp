@@ -24,6 +24,7 @@ public:
     void sample(const Snapshot& now) override;
     std::vector<Measurement> latest() const override;
     std::vector<Measurement> results() const override;
+    std::string silence() const override { return "fewer than two samples fell into its window"; }
     void persist(Archive& archive) override { archive(samples_, flowed_mass_, flowed_count_); }
 
 private:

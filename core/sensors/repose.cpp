@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -33,12 +34,30 @@ struct Surface {
     double radius(std::size_t ring) const { return (static_cast<double>(ring) + 0.5) * ring_width; }
 };
 
-Surface find_surface(const State& state, const Vec3& base, const Vec3& up, double ring_width)
+/// Faster than anything that lies.
+double moving_speed(const Model& model)
+{
+    return 0.3 * std::sqrt(model.gravity.norm() * model.mean_diameter);
+}
+
+double moving_share(const State& state, double fast)
+{
+    double moving = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        all += state.mass(i);
+        if (state.motion[i].velocity.norm() > fast) moving += state.mass(i);
+    }
+    return all > 0.0 ? moving / all : 0.0;
+}
+
+/// @param fast spheres above this speed are left out [m/s]
+Surface find_surface(const State& state, const Vec3& base, const Vec3& up, double ring_width, double fast)
 {
     Surface surface{ring_width, {}};
     const Vec3 e1 = any_perpendicular(up);
     const Vec3 e2 = up.cross(e1);
     for (std::size_t i = 0; i < state.count(); ++i) {
+        if (state.motion[i].velocity.norm() > fast) continue;
         const Vec3 x = state.position[i] - base;
         const double height = x.dot(up) + state.radius(i);
         const double out = (x - x.dot(up) * up).norm();
@@ -73,16 +92,23 @@ double find_foot(const State& state, const Vec3& base, const Vec3& up)
     return 0.0;
 }
 
-/// Slope angle [degree] of the line through the ring means between two radii, over some sectors.
-double slope_angle(const Surface& surface, double inner, double outer, std::size_t first_sector, std::size_t count)
+struct Flank {
+    double angle;       ///< [degree]
+    std::int64_t rings; ///< that have spheres in these sectors
+};
+
+/// The line through the ring means between two radii, over some sectors.
+Flank fit_flank(const Surface& surface, double inner, double outer, std::size_t first_sector, std::size_t count)
 {
     LineFit line;
+    std::int64_t rings = 0;
     for (std::size_t ring = 0; ring < surface.top.size(); ++ring) {
         const double mean = surface.ring_mean(ring, first_sector, count);
-        if (surface.radius(ring) >= inner && surface.radius(ring) <= outer && std::isfinite(mean))
-            line.add(surface.radius(ring), mean);
+        if (surface.radius(ring) < inner || surface.radius(ring) > outer || !std::isfinite(mean)) continue;
+        line.add(surface.radius(ring), mean);
+        ++rings;
     }
-    return line.fall_angle();
+    return {line.fall_angle(), rings};
 }
 
 } // namespace
@@ -95,7 +121,9 @@ Repose::Repose(std::string sensor_name, const Vec3& base, double inner_radius, d
 void Repose::sample(const Snapshot& now)
 {
     const Vec3 up = -now.model.gravity.normalized();
-    const auto surface = find_surface(now.state, base_, up, now.model.mean_diameter);
+    const double fast = moving_speed(now.model);
+    const auto surface = find_surface(now.state, base_, up, now.model.mean_diameter, fast);
+    moving_ = moving_share(now.state, fast);
     foot_ = find_foot(now.state, base_, up);
     apex_ = 0.0;
     for (std::size_t ring = 0; ring < surface.top.size(); ++ring) {
@@ -113,10 +141,13 @@ void Repose::sample(const Snapshot& now)
             if (mean < 0.2 * apex_) outer = std::min(outer, surface.radius(ring));
         }
     }
-    angle_ = slope_angle(surface, inner, outer, 0, sectors);
+    height_ = apex_ / now.model.mean_diameter;
+    const Flank flank = fit_flank(surface, inner, outer, 0, sectors);
+    angle_ = flank.angle;
+    rings_ = flank.rings;
     MeanAndError angles;
     constexpr std::size_t width = sectors / octants;
-    for (std::size_t k = 0; k < octants; ++k) angles.add(slope_angle(surface, inner, outer, k * width, width));
+    for (std::size_t k = 0; k < octants; ++k) angles.add(fit_flank(surface, inner, outer, k * width, width).angle);
     spread_ = angles.standard_error();
 }
 
@@ -127,7 +158,20 @@ std::vector<Measurement> Repose::latest() const
 
 std::vector<Measurement> Repose::results() const
 {
-    return {{"angle", angle_, spread_, "deg"}, {"apex", apex_, 0.0, "m"}, {"foot", foot_, 0.0, "m"}};
+    return {{"angle", is_heap() ? angle_ : nothing_yet, is_heap() ? spread_ : nothing_yet, "deg"},
+        {"apex", apex_, 0.0, "m"}, {"foot", foot_, 0.0, "m"}};
+}
+
+std::string Repose::silence() const
+{
+    char text[100];
+    if (moving_ > most_moving)
+        std::snprintf(text, sizeof text, "no heap: %.0f %% of the mass falls or flows", 100.0 * moving_);
+    else if (height_ < least_height)
+        std::snprintf(text, sizeof text, "no heap: it is %.2g diameters high", height_);
+    else
+        std::snprintf(text, sizeof text, "no heap: its flank is %d diameters wide", static_cast<int>(rings_));
+    return text;
 }
 
 } // namespace talus

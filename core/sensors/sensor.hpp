@@ -72,6 +72,9 @@ public:
     /// The results over all samples so far.
     virtual std::vector<Measurement> results() const = 0;
 
+    /// Why results are not numbers, where some are not.
+    virtual std::string silence() const { return "there was nothing to measure"; }
+
     /// The results that have a file of their own, for the sensors that have some.
     virtual std::optional<Table> table() const { return std::nullopt; }
 

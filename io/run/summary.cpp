@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace talus
 {
@@ -135,6 +136,8 @@ Json to_json(const std::vector<SensorSummary>& sensors)
         Json& quantities = json[sensor.name] = Json::object();
         for (const Measurement& m : sensor.results)
             quantities[m.name] = {{"value", m.value}, {"spread", m.spread}, {"unit", m.unit}};
+        for (const Measurement& m : sensor.results)
+            if (!std::isfinite(m.value)) quantities[m.name]["silence"] = sensor.silence;
     }
     return json;
 }

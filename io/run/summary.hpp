@@ -26,6 +26,7 @@ struct ParticleLedger {
 struct SensorSummary {
     std::string name;
     std::vector<Measurement> results;
+    std::string silence; ///< why results are not numbers; empty where all are
 };
 
 struct PourSummary {

@@ -75,6 +75,22 @@ TEST_CASE("check says what a scene holds and needs, and writes nothing", "[app][
         resolved.out, StartsWith(outcome.out) && Contains("duration = 0.1 ") && Contains("on_escape = \"stop\""));
 }
 
+TEST_CASE("a sensor that has nothing to say says why", "[app][command line]")
+{
+    const Workplace place;
+    const Outcome outcome = place.run(beads_in_a_box + R"(
+[[sensor]]
+name = "late"
+kind = "mass_flow"
+from = 3.5
+[[sensor]]
+name = "heap"
+kind = "repose"
+)");
+    CHECK_THAT(outcome.out, Contains("late mass_flow               it averages from 3.5 s on, and the run ended at") &&
+                                Contains("heap angle                   no heap: ") && !Contains("nan"));
+}
+
 TEST_CASE("grains that roll away on a plane stay in the world", "[app][command line]")
 {
     const Workplace place;

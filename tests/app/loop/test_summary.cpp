@@ -16,12 +16,14 @@ TEST_CASE("a value that is not a number is null in the summary", "[app][summary]
 {
     const Workplace place;
     talus::RunSummary summary;
-    summary.sensors = {{"heap", {{"angle", std::numeric_limits<double>::quiet_NaN(), talus::infinity, "degree"}}}};
+    summary.sensors = {
+        {"heap", {{"angle", std::numeric_limits<double>::quiet_NaN(), talus::infinity, "degree"}}, "no heap"}};
     write_summary(place.path("summary.json"), summary);
     const auto angle = nlohmann::json::parse(place.read("summary.json"))["sensors"]["heap"]["angle"];
     CHECK(angle["value"].is_null());
     CHECK(angle["spread"].is_null());
     CHECK(angle["unit"] == "degree");
+    CHECK(angle["silence"] == "no heap");
 }
 
 TEST_CASE("a ledger closes when every sphere is accounted for", "[app][summary]")

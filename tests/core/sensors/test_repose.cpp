@@ -140,3 +140,37 @@ TEST_CASE("where there is no heap there is no angle", "[repose][degenerate]")
     sample(sensor, state, model);
     CHECK(std::isnan(sensor.results()[0].value));
 }
+
+TEST_CASE("what is no heap has no angle, and says why", "[repose]")
+{
+    const auto judge = [](const Heap& heap) {
+        Repose sensor("heap", heap.base, 0.0, 0.0);
+        sample(sensor, heap.state, heap.model);
+        return std::pair{sensor.results()[0].value, sensor.silence()};
+    };
+    Heap falling(cone(25.0, 0.1));
+    CHECK(judge(falling).first == Approx(25.0).margin(0.3));
+    const auto moved = falling.state.count() / 10;
+    for (std::size_t i = 0; i < moved; ++i) falling.state.motion[i].velocity.z() = -0.2;
+    CHECK(std::isnan(judge(falling).first));
+    CHECK(judge(falling).second == "no heap: 10 % of the mass falls or flows");
+
+    const auto flat = judge(Heap([](double, double) { return 1.5 * diameter; }));
+    CHECK(std::isnan(flat.first));
+    CHECK(flat.second == "no heap: it is 1.5 diameters high");
+
+    const auto steep = judge(Heap(cone(80.0, 0.1)));
+    CHECK(std::isnan(steep.first));
+    CHECK(steep.second == "no heap: its flank is 2 diameters wide");
+}
+
+TEST_CASE("grains in the air are no part of the surface", "[repose]")
+{
+    Heap heap(cone(25.0, 0.1));
+    const double still = heap.angle().value;
+    for (int k = 0; k < 20; ++k) {
+        add_sphere(heap.state, heap.base + Vec3(0, 0, 0.2 + 0.01 * k), 0.5 * diameter, 2500.0, 0);
+        heap.state.motion.back().velocity.z() = -1.0;
+    }
+    CHECK(heap.angle().value == still);
+}
