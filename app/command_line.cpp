@@ -21,8 +21,10 @@ const CLI::Validator from_zero_up(
 
 void add_set_option(CLI::App& verb, CommandLine& line)
 {
-    verb.add_option(
-            "--set", line.overrides, "Replace a value of the scene, e.g. contact.glass-glass.friction=0.6; repeatable")
+    verb.add_option("--set", line.overrides,
+            "Replace a value of the scene: contact.glass-glass.friction=0.6, by index wall.drum.motion.0.rate='30 "
+            "rpm'; "
+            "repeatable")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
 }

@@ -32,19 +32,23 @@ bool may_change(std::string_view key)
 
 RunOrigin origin_of(const std::string& scene_name, const scene::Scene& scene)
 {
-    return {scene_name, resolved_scene(scene), named_files(scene)};
+    const auto files = named_files(scene);
+    RunOrigin origin{scene_name, resolved_scene(with_copies(scene, files)), {}};
+    for (const NamedFile& file : files) origin.files.push_back(file.sum);
+    return origin;
 }
 
 void refuse_other_scene(const SceneFile& file, const RunOrigin& origin)
 {
-    for (const std::string& key : changed_keys(parse_scene(origin.scene), file.scene))
+    const auto files = named_files(file.scene);
+    for (const std::string& key : changed_keys(parse_scene(origin.scene), with_copies(file.scene, files)))
         if (!may_change(key))
             throw InputError(fmt::format("{}: '{}' may not change when a run is resumed; what may is {}",
                 file.place_of(key), key, fmt::join(changeable, ", ")));
-    for (const auto& one : named_files(file.scene))
-        if (std::ranges::find(origin.files, one) == origin.files.end())
+    for (std::size_t k = 0; k < files.size(); ++k)
+        if (files[k].sum != origin.files.at(k))
             throw InputError(fmt::format(
-                "{}: the file has changed since the run began; it goes on only with the old one", one.first));
+                "{}: the file has changed since the run began; it goes on only with the old one", files[k].path));
 }
 
 } // namespace talus

@@ -15,8 +15,8 @@ namespace talus
 /// The run that a checkpoint belongs to: what of it must not change, or the state would not fit.
 struct RunOrigin {
     std::string scene_name;
-    std::string scene;                                        ///< resolved, as TOML
-    std::vector<std::pair<std::string, std::uint32_t>> files; ///< that it names, and their checksums
+    std::string scene;                ///< resolved, as TOML; as it stands in the run's folder
+    std::vector<std::uint32_t> files; ///< checksums of those that it names
 
     void persist(Archive& archive) { archive(scene_name, scene, files); }
 };

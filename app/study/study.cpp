@@ -114,7 +114,7 @@ private:
 std::string identity(const OpenedScene& opened, const scene::Study& study)
 {
     std::string content = resolved_scene(opened.scene);
-    for (const auto& [file, sum] : named_files(opened.scene)) content += fmt::format("{} {}\n", file, sum);
+    for (const NamedFile& file : named_files(opened.scene)) content += fmt::format("{} {}\n", file.path, file.sum);
     return fmt::format(
         "# Talus {}, scene {:08x}: {}\n{}", TALUS_VERSION, checksum(content), opened.name, resolved_study(study));
 }

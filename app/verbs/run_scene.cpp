@@ -120,7 +120,9 @@ ExitCode run_scene(const CommandLine& line)
     OpenedScene opened = open_scene(line);
     if (line.threads > 0) omp_set_num_threads(line.threads);
     const fs::path folder = line.out.empty() ? fs::path("out") / opened.name : line.out;
-    const FolderLock lock = make_run_folder(folder, resolved_scene(opened.scene), line.force);
+    const auto files = named_files(opened.scene);
+    const FolderLock lock = make_run_folder(folder, resolved_scene(with_copies(opened.scene, files)), line.force);
+    copy_files(files, folder);
     warn_unless_protected(lock);
     catch_signals();
 
@@ -156,7 +158,7 @@ ExitCode resume_run(const CommandLine& line)
         catch_signals();
 
         RunLoop loop(opened, line.out, line.verbosity, archive);
-        write_atomically(scene, resolved_scene(opened.scene));
+        write_atomically(scene, resolved_scene(with_copies(opened.scene, named_files(opened.scene))));
         fs::remove(line.out / "summary.json"); // of a run that had ended; this one has not
         print_resumption(opened, checkpoint, line);
         return run_to_end(opened, loop, line.out, line.verbosity);

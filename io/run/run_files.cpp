@@ -2,6 +2,7 @@
 #include "io/run/run_files.hpp"
 
 #include "io/text/input_error.hpp"
+#include "io/text/input_file.hpp"
 
 #include <fmt/format.h>
 
@@ -157,6 +158,17 @@ FolderLock make_run_folder(const fs::path& folder, const std::string& resolved_s
     remove_run(folder);
     write_atomically(folder / marker, resolved_scene);
     return lock;
+}
+
+void copy_files(const std::vector<NamedFile>& files, const fs::path& folder)
+{
+    for (const NamedFile& file : files) {
+        const fs::path copy = folder / file.copy;
+        std::error_code error;
+        fs::create_directories(copy.parent_path(), error);
+        if (error) refuse_output(copy.parent_path(), error.message());
+        write_atomically(copy, read_bytes(file.path, "a file"));
+    }
 }
 
 void require_writable(const fs::path& path, bool force)

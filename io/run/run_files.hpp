@@ -3,6 +3,7 @@
 
 #include "core/sensors/sensor.hpp"
 #include "io/run/folder_lock.hpp"
+#include "io/scene/scene_file.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -21,6 +22,10 @@ namespace talus
 ///   without scene.resolved.toml is never touched
 /// @throws InputError where the folder may not be used, OutputError where it cannot be written
 FolderLock make_run_folder(const std::filesystem::path& folder, const std::string& resolved_scene, bool force);
+
+/// Copies the files that a scene names into the folder of a run, which then can go on wherever it is.
+/// @throws OutputError
+void copy_files(const std::vector<NamedFile>& files, const std::filesystem::path& folder);
 
 /// Asks beforehand whether a file can be written later, so that nothing is computed in vain.
 /// @param force replace a file that is there already

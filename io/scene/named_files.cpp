@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace talus
 {
 
@@ -66,27 +68,38 @@ void read_analyses(const SceneFile& file, const std::string& key, auto& table)
         read_analysis(file, fmt::format("{}.species[{}].diameter", key, k), table.species[k].diameter);
 }
 
-using Files = std::vector<std::pair<std::string, std::uint32_t>>;
+/// Calls visit(path) for each key of a scene that names a file.
+template <class Visit> struct FileKeys {
+    Visit visit;
 
-void add_files(Files&, std::string_view, const auto&) {}
+    void walk(std::string_view, auto&) const {}
+    void walk(std::string_view key, std::string& value) const
+    {
+        if ((key == "mesh" || key == "file") && !value.empty()) visit(value);
+    }
+    template <Table Described> void walk(std::string_view, std::vector<Described>& list) const
+    {
+        for (Described& element : list) walk("", element);
+    }
+    template <Table Described> void walk(std::string_view, Described& table) const
+    {
+        Described::describe(table, [&](std::string_view name, auto& field, auto&&...) { walk(name, field); });
+    }
+};
 
-void add_files(Files& files, std::string_view key, const std::string& value)
+template <class Visit> void for_each_file_key(scene::Scene& scene, Visit visit)
 {
-    if ((key == "mesh" || key == "file") && !value.empty())
-        files.emplace_back(value, checksum(read_bytes(value, "a file")));
+    FileKeys<Visit>{visit}.walk("", scene);
 }
 
-template <Table Described> void add_files(Files& files, std::string_view, const Described& table);
-
-template <Table Described> void add_files(Files& files, std::string_view key, const std::vector<Described>& list)
+/// "files/cup.stl" for a path that ends so, with a number before the name if that is taken.
+std::string name_of_copy(const std::string& path, const std::vector<NamedFile>& taken)
 {
-    for (const Described& element : list) add_files(files, key, element);
-}
-
-template <Table Described> void add_files(Files& files, std::string_view, const Described& table)
-{
-    for_each_own_key(
-        table, [&](std::string_view name, const auto& field, std::string_view) { add_files(files, name, field); });
+    const std::string name = std::filesystem::path(path).filename().string();
+    std::string copy = fmt::format("files/{}", name);
+    for (int n = 2; std::ranges::find(taken, copy, &NamedFile::copy) != taken.end(); ++n)
+        copy = fmt::format("files/{}_{}", n, name);
+    return copy;
 }
 
 } // namespace
@@ -105,11 +118,20 @@ void read_named_files(SceneFile& file)
     for (std::size_t i = 0; i < scene.pour.size(); ++i) read_analyses(file, fmt::format("pour[{}]", i), scene.pour[i]);
 }
 
-Files named_files(const scene::Scene& scene)
+std::vector<NamedFile> named_files(scene::Scene scene)
 {
-    Files files;
-    add_files(files, "", scene);
+    std::vector<NamedFile> files;
+    for_each_file_key(scene, [&](const std::string& path) {
+        if (std::ranges::find(files, path, &NamedFile::path) == files.end())
+            files.push_back({path, name_of_copy(path, files), checksum(read_bytes(path, "a file"))});
+    });
     return files;
+}
+
+scene::Scene with_copies(scene::Scene scene, const std::vector<NamedFile>& files)
+{
+    for_each_file_key(scene, [&](std::string& path) { path = std::ranges::find(files, path, &NamedFile::path)->copy; });
+    return scene;
 }
 
 } // namespace talus

@@ -47,8 +47,18 @@ std::vector<std::string> changed_keys(const scene::Scene& before, const scene::S
 /// @throws InputError that begins with the place of the key
 void read_named_files(SceneFile& file);
 
-/// The files that a scene was read from beside its own, those of the keys `mesh` and `file`, with their checksums.
+/// A file that a scene was read from beside its own, that of a key `mesh` or `file`.
+struct NamedFile {
+    std::string path;
+    std::string copy;      ///< from a run's folder: "files/hopper.stl"
+    std::uint32_t sum = 0; ///< its checksum
+};
+
+/// These files, each once.
 /// @throws InputError where one cannot be read any more
-std::vector<std::pair<std::string, std::uint32_t>> named_files(const scene::Scene& scene);
+std::vector<NamedFile> named_files(scene::Scene scene);
+
+/// The scene as it stands in a run's folder, where it names the copies of its files.
+scene::Scene with_copies(scene::Scene scene, const std::vector<NamedFile>& files);
 
 } // namespace talus

@@ -65,6 +65,17 @@ std::optional<double> allowed_number(const toml::node& node, const Key& key)
     return allowed_number(node, key, key.unit);
 }
 
+/// Whether a text can be printed: it holds no control characters, but perhaps a tab.
+bool is_printable(std::string_view text)
+{
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const auto byte = static_cast<unsigned char>(text[k]);
+        const auto next = static_cast<unsigned char>(k + 1 < text.size() ? text[k + 1] : 0xff);
+        if ((byte < 0x20 && byte != '\t') || byte == 0x7f || (byte == 0xc2 && next < 0xa0)) return false;
+    }
+    return true;
+}
+
 bool is_allowed(const std::string& text, const scene::Allowed& allowed)
 {
     return allowed.names.empty() || std::ranges::find(allowed.names, text) != allowed.names.end();
@@ -209,6 +220,7 @@ void read_value(const toml::node& node, const Key& key, std::string& field)
 {
     const auto* text = node.as_string();
     if (!text || !is_allowed(text->get(), key.allowed)) refuse_name(node, key, expected_value(key, field));
+    if (!is_printable(text->get())) refuse_value(node, key.name, "text without line breaks and control characters");
     field = text->get();
 }
 

@@ -74,6 +74,9 @@ void require_file_name(const Entry& entry)
     if (!std::ranges::all_of(entry.table.name, is_plain))
         throw SceneError(entry.key("name"),
             "the name of a profile is part of a file's name: use letters, digits, '.', '_' and '-' only");
+    constexpr std::size_t longest = 200; // file systems take 255, with what stands before and behind it
+    if (entry.table.name.size() > longest)
+        throw SceneError(entry.key("name"), "the name of a profile is part of a file's name: at most 200 characters");
 }
 
 std::unique_ptr<Sensor> build_profile(const Entry& entry)

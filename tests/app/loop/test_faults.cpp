@@ -69,8 +69,9 @@ const std::vector<Fault> faults = {
     {"a byte of a checkpoint flipped",
         between("printf U | dd of=out/checkpoint.latest bs=1 seek=3000 conv=notrunc status=none")},
     {"both checkpoints cut short", between("truncate -s -1 out/checkpoint.latest out/checkpoint.previous")},
-    {"the mesh of a wall exchanged", between("mv cup.stl good.stl; sed s/-2/-3/ good.stl > cup.stl"),
-        "mv good.stl cup.stl"},
+    {"the mesh of a wall exchanged",
+        between("mv out/files/cup.stl good.stl; sed s/-2/-3/ good.stl > out/files/cup.stl"),
+        "mv good.stl out/files/cup.stl"},
     {"metrics.csv cut short", between("cp out/metrics.csv good.csv; truncate -s 100 out/metrics.csv"),
         "mv good.csv out/metrics.csv"},
 };

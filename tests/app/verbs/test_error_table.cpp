@@ -124,6 +124,7 @@ const std::vector<Situation> situations = {
     edited("a wrong type", "duration = 0.05", "duration = \"long\""),
     edited("a value out of range", "density = 2500.0", "density = -1.0"),
     edited("a value that is not a number", "density = 2500.0", "density = nan"),
+    edited("a name that would paint the terminal", "name = \"tray\"", "name = \"\\\\u001b[31mtray\""),
     edited("a number beyond all sense", "density = 2500.0", "density = 1e300"),
     edited("a number too small for anything", "diameter = 0.01", "diameter = 1e-200"),
     edited("a number with the unit of another", "diameter = 0.01", "diameter = \"10 kg\""),
@@ -249,7 +250,7 @@ const std::vector<Situation> situations = {
     {"resume with another mesh",
         "printf 'solid\\nfacet normal 0 0 1\\nouter loop\\nvertex 0 0 -1\\nvertex 1 0 -1\\nvertex 0 1 -1\\nendloop\\n"
         "endfacet\\nendsolid\\n' > cup.stl; printf '[[wall]]\\nname = \"w\"\\nmaterial = \"glass\"\\nmesh = \"cup.stl\""
-        "\\n' >> scene.toml; " TALUS_BINARY " run scene.toml -o out --quiet; sed -i s/-1/-2/ cup.stl",
+        "\\n' >> scene.toml; " TALUS_BINARY " run scene.toml -o out --quiet; sed -i s/-1/-2/ out/files/cup.stl",
         resume},
     {"a sphere that escapes", "", "run bead.toml --quiet"},
     {"a sphere that is too fast", "",

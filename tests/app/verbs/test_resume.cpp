@@ -204,3 +204,28 @@ TEST_CASE("a run that is done can be closed again, or made longer with fewer fra
     CHECK(place.exists("again/frames/particles_000005.vtp")); // that of the new end
     CHECK_THAT(place.read("again/scene.resolved.toml"), Contains("duration = 0.06 "));
 }
+
+TEST_CASE("a run's folder can be moved: it holds the files that its scene names", "[app][resume]")
+{
+    const Workplace place;
+    const std::string facet = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 -1\nvertex 1 0 -1\nvertex 0 1 -1\n"
+                              "endloop\nendfacet\nendsolid\n";
+    place.shell("mkdir meshes others");
+    place.write("meshes/cup.stl", facet);
+    place.write("others/cup.stl", replaced(facet, "1 0 -1", "2 0 -1"));
+    const auto mesh = [](const std::string& folder) {
+        return "[[wall]]\nname = \"" + folder + "\"\nmaterial = \"glass\"\nmesh = \"" + folder + "/cup.stl\"\n";
+    };
+    place.write("scene.toml", std::string(beads_in_a_box) + mesh("meshes") + mesh("others"));
+    REQUIRE(place.talus("run scene.toml --threads 1 -o whole --until 0.06").exit_code == 0);
+    REQUIRE(place.talus("run scene.toml --threads 1 -o out").exit_code == 0);
+    CHECK(place.read("out/files/cup.stl") == facet);
+    CHECK_THAT(place.read("out/scene.resolved.toml"),
+        Contains("mesh = \"files/cup.stl\"") && Contains("mesh = \"files/2_cup.stl\""));
+    place.shell("mkdir elsewhere; mv out elsewhere/there; rm -r meshes others scene.toml");
+    const Outcome outcome = place.talus("resume elsewhere/there --until 0.06 --threads 1");
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK(place.read("elsewhere/there/metrics.csv") == place.read("whole/metrics.csv"));
+    CHECK(place.talus("run elsewhere/there/scene.resolved.toml -o again --until 0.01").exit_code == 0);
+}

@@ -79,6 +79,8 @@ const std::vector<Mistake> of_sensors = {
         "sensor[0].direction", "a box is cut along 'x', 'y' or 'z', a cylinder 'axial' or 'radial'"},
     {add_sensor("profile", [](auto& t) { t.name = "../a"; }), "sensor[0].name",
         "the name of a profile is part of a file's name: use letters, digits, '.', '_' and '-' only"},
+    {add_sensor("profile", [](auto& t) { t.name = std::string(201, 'a'); }), "sensor[0].name",
+        "the name of a profile is part of a file's name: at most 200 characters"},
     {add_sensor("wall_force", [](auto& t) { t.wall = "flor"; }), "sensor[0].wall",
         "unknown wall 'flor'; the scene has box"},
     {[](S& s) {
