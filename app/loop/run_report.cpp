@@ -107,6 +107,12 @@ void print_ledger(const RunSummary& summary)
             say("  {:<28} {} came in: {}\n", fmt::format("pour {}", pour.name), poured_of_asked(pour), pour.shortfall);
 }
 
+void print_momentum(const char* name, const MomentumSums& sums, const char* unit)
+{
+    say("  {:<28} {:.4g} {} put in by gravity, {:.4g} by walls, {:.2g} left over\n", name, sums.from_gravity, unit,
+        sums.from_walls, sums.left_over);
+}
+
 void print_error(const RunSummary& summary)
 {
     const ErrorSummary& e = summary.error;
@@ -131,6 +137,8 @@ void print_error(const RunSummary& summary)
             : fmt::format("; {:.4g} J put in by moving walls, loads or gravity along periodic axes", e.energy_put_in);
     say("  {:<28} {:.4g} J lost, {:.2g} J gained that nothing put in{}\n", "energy", e.energy_lost, e.energy_gained,
         put_in);
+    print_momentum("momentum", e.linear, "N s");
+    if (e.angular.left_over > 0.0) print_momentum("angular momentum", e.angular, "N m s");
 }
 
 void print_timing(const RunSummary& summary)

@@ -54,6 +54,19 @@ void EnergyBalance::add(const StepReport& report, bool same_spheres)
     motion_energy_ = report.bodies.kinetic_energy + report.bodies.potential_energy;
 }
 
+void MomentumBalance::add(const StepReport& report, bool same_spheres)
+{
+    const StateSurvey& bodies = report.bodies;
+    const WallLoad& walls = report.outcome.from_walls;
+    if (same_spheres) {
+        left_over_[0] += (bodies.momentum.linear - last_.linear - bodies.from_gravity.linear - walls.impulse).norm();
+        left_over_[1] += (bodies.momentum.angular - last_.angular - bodies.from_gravity.angular - walls.torque).norm();
+        from_gravity_ += bodies.from_gravity;
+        from_walls_ += Momentum{walls.impulse, walls.torque};
+    }
+    last_ = bodies.momentum;
+}
+
 void RunStatistics::add(const StepReport& report, const Simulation& simulation)
 {
     residuals_.add(report.solve.residual);
@@ -78,6 +91,7 @@ void RunStatistics::add(const StepReport& report, const Simulation& simulation)
     const std::int64_t left = simulation.outflow.count + static_cast<std::int64_t>(simulation.escaped.size());
     same_spheres_ = inserted == inserted_ && left == left_;
     energy_.add(report, same_spheres_);
+    momentum_.add(report, same_spheres_);
     inserted_ = inserted;
     left_ = left;
 }
@@ -93,6 +107,8 @@ ErrorSummary RunStatistics::error(const Model& model) const
     error.energy_lost = energy_.lost();
     error.energy_gained = energy_.gained();
     error.energy_put_in = energy_.put_in();
+    error.linear = momentum_.linear();
+    if (!model.periodicity.any()) error.angular = momentum_.angular();
     return error;
 }
 

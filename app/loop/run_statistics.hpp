@@ -58,6 +58,28 @@ private:
     std::optional<double> total_energy_;  ///< at the end of the step before it
 };
 
+/// Where the spheres' momentum comes from: gravity, walls, and what nothing explains. Only steps with the same spheres
+/// are looked at.
+class MomentumBalance
+{
+public:
+    /// @param same_spheres whether those in the step are those of the step before
+    void add(const StepReport& report, bool same_spheres);
+
+    MomentumSums linear() const { return {from_gravity_.linear.norm(), from_walls_.linear.norm(), left_over_[0]}; }
+    MomentumSums angular() const { return {from_gravity_.angular.norm(), from_walls_.angular.norm(), left_over_[1]}; }
+
+    void persist(Archive& archive)
+    {
+        archive(last_.linear, last_.angular, from_gravity_.linear, from_gravity_.angular, from_walls_.linear,
+            from_walls_.angular, left_over_);
+    }
+
+private:
+    Momentum last_, from_gravity_, from_walls_;
+    std::array<double, 2> left_over_{}; ///< linear, angular
+};
+
 /// Gathers the reports of all steps into what the run says about its own error.
 class RunStatistics
 {
@@ -74,13 +96,15 @@ public:
 
     void persist(Archive& archive)
     {
-        archive(sums_, residuals_, energy_, overlap_sum_, overlap_count_, contact_updates_, inserted_, left_);
+        archive(
+            sums_, residuals_, energy_, momentum_, overlap_sum_, overlap_count_, contact_updates_, inserted_, left_);
     }
 
 private:
     ErrorSummary sums_; ///< counts and worst values; the rest is filled in when it is asked for
     LogHistogram residuals_;
     EnergyBalance energy_;
+    MomentumBalance momentum_;
     double overlap_sum_ = 0.0, overlap_count_ = 0.0; ///< over all overlapping contacts of all steps
     double contact_updates_ = 0.0;
     std::int64_t inserted_ = 0, left_ = 0; ///< up to the last step, also by escape

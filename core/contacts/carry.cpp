@@ -88,12 +88,28 @@ void note_walls_touched(const TileContacts& contacts, State& state)
         if (!contacts.impulse(k).isZero(0.0)) state.last_wall[contacts.a(k)] = contacts.b(k);
 }
 
+/// What walls did to spheres which have moved by h v since.
+WallLoad load_from(const TileContacts& walls, const State& state, double h)
+{
+    WallLoad load;
+    for (const std::size_t k : walls.indices()) {
+        const std::int32_t a = walls.a(k);
+        const Vec3 impulse = walls.impulse(k);
+        const Vec3 point = state.position[a] - h * state.motion[a].velocity - state.radius(a) * walls.normal(k);
+        load.impulse += impulse;
+        load.torque += point.cross(impulse);
+        if (walls.has_rolling()) load.torque += walls.rolling_impulse(k);
+    }
+    return load;
+}
+
 } // namespace
 
 ContactOutcome& ContactOutcome::operator+=(const ContactOutcome& other)
 {
     cone_violation = std::max(cone_violation, other.cone_violation);
     wall_impulse += other.wall_impulse;
+    from_walls += other.from_walls;
     wall_work += other.wall_work;
     newly_jammed += other.newly_jammed;
     return *this;
@@ -118,6 +134,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
             if (walls.has_moving_walls() && walls.has_rolling())
                 outcome.wall_work += walls.rolling_impulse(k).dot(walls.wall(k).spin);
         }
+        outcome.from_walls = load_from(walls, state, h);
         note_walls_touched(walls, state);
     }
     ContactOutcome all;
@@ -125,6 +142,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
     PressGauge none = gauge; // a piston gives way
     none.overlap = infinity;
     all += carry(contacts.pistons, network.carried.walls, none, true);
+    all.from_walls += load_from(contacts.pistons, state, h);
     note_walls_touched(contacts.pistons, state);
     return all;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/contacts/contact_network.hpp"
+#include "core/contacts/loads.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
 
@@ -12,6 +13,7 @@ namespace talus
 struct ContactOutcome {
     double cone_violation = 0.0;      ///< worst |λ_t| − μ λ_n [N s], 0 if none
     Vec3 wall_impulse = Vec3::Zero(); ///< Σ λ over the contacts with walls that are not pistons [N s]
+    WallLoad from_walls;              ///< on the spheres, of all walls; in place where spheres moved by h v alone
     double wall_work =
         0.0; ///< that walls which move as told did on the spheres: Σ λ·w and Σ of rolling rows · spin [J]
     std::size_t newly_jammed = 0; ///< contacts that came to be so in this step (TouchRecord)

@@ -40,7 +40,7 @@ struct SphereLoad {
 /// The load on each of `spheres` spheres by storage index, from the solved contacts.
 std::vector<SphereLoad> sphere_loads(const ContactNetwork& network, std::size_t spheres);
 
-/// What the spheres did to a wall in a step.
+/// What spheres did to a wall in a step, or walls to the spheres.
 struct WallLoad {
     Vec3 impulse = Vec3::Zero(); ///< [N s]
     Vec3 torque = Vec3::Zero();  ///< angular impulse about the origin, rolling resistance included [N m s]

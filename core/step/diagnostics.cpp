@@ -21,6 +21,16 @@ std::optional<Incident::Kind> incident_of(const State& state, const Model& model
     return std::nullopt;
 }
 
+/// Adds a sphere's momentum, and what gravity gave it in a step of this length where it was before x ← x + h v.
+void add_momentum(StateSurvey& survey, const Vec3& x, const Motion& m, const Vec3& gravity, double h)
+{
+    const double mass = 1.0 / m.inverse_mass;
+    survey.momentum.linear += mass * m.velocity;
+    survey.momentum.angular += mass * (x.cross(m.velocity) + m.radius / inverse_inertia_factor * m.rim_velocity);
+    survey.from_gravity.linear += mass * h * gravity;
+    survey.from_gravity.angular += mass * h * (x - h * m.velocity).cross(gravity);
+}
+
 StateSurvey survey_block(
     const State& state, const Model& model, const StepLength& step, std::size_t begin, std::size_t end)
 {
@@ -33,6 +43,7 @@ StateSurvey survey_block(
         survey.kinetic_energy += kinetic_energy(m);
         survey.potential_energy -= (model.gravity - along).dot(state.position[i]) / m.inverse_mass;
         survey.gravity_work += step.h() * along.dot(m.velocity) / m.inverse_mass;
+        add_momentum(survey, state.position[i], m, model.gravity, step.h());
         survey.fastest_speed = std::max(survey.fastest_speed, speed);
         if (speed * whole_step > 0.2 * m.radius) ++survey.long_moves;
         if (const auto kind = incident_of(state, model, i))
@@ -106,8 +117,16 @@ Vec3 angular_momentum(const State& state)
     return sum;
 }
 
+Momentum& Momentum::operator+=(const Momentum& other)
+{
+    linear += other.linear;
+    angular += other.angular;
+    return *this;
+}
+
 void StateSurvey::then(StateSurvey next)
 {
+    next.from_gravity += from_gravity;
     next.gravity_work += gravity_work;
     next.load_work += load_work;
     next.fastest_speed = std::max(next.fastest_speed, fastest_speed);
@@ -132,6 +151,8 @@ StateSurvey survey_state(const State& state, const Model& model, const StepLengt
         all.kinetic_energy += part.kinetic_energy;
         all.potential_energy += part.potential_energy;
         all.gravity_work += part.gravity_work;
+        all.momentum += part.momentum;
+        all.from_gravity += part.from_gravity;
         all.fastest_speed = std::max(all.fastest_speed, part.fastest_speed);
         all.long_moves += part.long_moves;
         all.incidents.insert(all.incidents.end(), part.incidents.begin(), part.incidents.end());

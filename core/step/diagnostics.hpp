@@ -18,12 +18,22 @@ double potential_energy(const State& state, const Vec3& gravity); ///< −Σ m g
 Vec3 linear_momentum(const State& state);                         ///< Σ m v [kg m/s]
 Vec3 angular_momentum(const State& state);                        ///< Σ (x × m v + I ω) about the origin [kg m²/s]
 
+/// Linear and angular momentum, the latter about the origin.
+struct Momentum {
+    Vec3 linear = Vec3::Zero();  ///< Σ m v [N s]
+    Vec3 angular = Vec3::Zero(); ///< Σ (x × m v + I ω) [N m s]
+
+    Momentum& operator+=(const Momentum& other);
+};
+
 /// What a pass over the spheres and pistons tells about a step.
 struct StateSurvey {
     double kinetic_energy = 0.0;     ///< of the new velocities, pistons included, as in the rest [J]
     double potential_energy = 0.0;   ///< −Σ m g·x of the new positions, periodic axes left out [J]
     double gravity_work = 0.0;       ///< of gravity along periodic axes in the step [J]
     double load_work = 0.0;          ///< that loads did on pistons in the step [J]
+    Momentum momentum;               ///< of the spheres, with the new velocities in the new places
+    Momentum from_gravity;           ///< what gravity gave them in the step, in the places where they were
     double fastest_speed = 0.0;      ///< [m/s]
     std::size_t long_moves = 0;      ///< spheres, and pistons, that move more than 0.1 d in a whole step at their speed
     std::vector<Incident> incidents; ///< in storage order, pistons last; empty in every healthy step

@@ -142,6 +142,11 @@ Json to_json(const std::vector<SensorSummary>& sensors)
     return json;
 }
 
+Json to_json(const MomentumSums& sums)
+{
+    return {{"from_gravity", sums.from_gravity}, {"from_walls", sums.from_walls}, {"left_over", sums.left_over}};
+}
+
 Json to_json(const ErrorSummary& error)
 {
     return {{"residual",
@@ -152,7 +157,8 @@ Json to_json(const ErrorSummary& error)
         {"long_moves", error.long_moves}, {"sub_steps", {{"steps", error.split_steps}, {"most", error.most_sub_steps}}},
         {"cone_violation", error.cone_violation},
         {"pressure_scaling", {{"corrections", error.corrections}, {"refused", error.refused_corrections}}},
-        {"energy", {{"lost", error.energy_lost}, {"gained", error.energy_gained}, {"put_in", error.energy_put_in}}}};
+        {"energy", {{"lost", error.energy_lost}, {"gained", error.energy_gained}, {"put_in", error.energy_put_in}}},
+        {"momentum", to_json(error.linear)}, {"angular_momentum", to_json(error.angular)}};
 }
 
 Json to_json(const TimingSummary& timing)

@@ -39,6 +39,13 @@ struct PourSummary {
 };
 
 /// How wrong the run may be. Overlaps are in mean diameters d.
+/// What became of a momentum, in steps with the same spheres.
+struct MomentumSums {
+    double from_gravity = 0.0; ///< size of the sum of what gravity gave
+    double from_walls = 0.0;   ///< the same of walls
+    double left_over = 0.0;    ///< sum of the sizes of what the spheres gained or lost in single steps besides
+};
+
 struct ErrorSummary {
     double tolerance = 0.0; ///< on the residual
     double mean_residual = 0.0;
@@ -57,6 +64,8 @@ struct ErrorSummary {
     double energy_lost = 0.0;   ///< kinetic + potential + stored in contacts: sum of its falls from step to step [J]
     double energy_gained = 0.0; ///< sum of its rises, which nothing put in [J]
     double energy_put_in = 0.0; ///< work of moving walls, and of gravity along periodic axes [J]
+    MomentumSums linear;        ///< momentum of the spheres [N s]
+    MomentumSums angular;       ///< about the origin [N m s]; not where axes are periodic, across which it is not kept
 };
 
 struct PhaseTime {

@@ -231,3 +231,29 @@ TEST_CASE("a run says how far the relaxation got", "[app][run]")
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.out, Contains("relaxed in 0 steps: 0 overlaps"));
 }
+
+TEST_CASE("momentum comes from gravity and walls, and hardly any is left over", "[app][run]")
+{
+    const std::string law = GENERATE("matched", "projected");
+    const std::string piston = GENERATE("", R"(
+[[wall]]
+name = "lid"
+shape = "box"
+min = [0.001, 0.001, 0.06]
+max = [0.049, 0.049, 0.07]
+material = "glass"
+mass = 0.1
+guide = [0, 0, -1]
+)");
+    CAPTURE(law, piston);
+    const Workplace place;
+    const Outcome outcome = place.run(
+        beads_in_a_box + piston, "--until 0.2 --set contact.0.rolling_friction=0.1 --set solver.stabilisation=" + law);
+    REQUIRE(outcome.exit_code == 0);
+    const auto error = nlohmann::json::parse(place.read("out/summary.json"))["error"];
+    const double weight = 0.01047 * 9.81;
+    CHECK(error["momentum"]["from_gravity"] == Approx(0.2 * weight).epsilon(0.01));
+    CHECK(error["momentum"]["from_walls"] > 0.1 * weight);
+    CHECK(error["momentum"]["left_over"] < 1e-13 * weight);
+    CHECK(error["angular_momentum"]["left_over"] < (law == "matched" ? 1e-15 : 1e-8) * weight);
+}
