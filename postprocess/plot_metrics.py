@@ -34,7 +34,8 @@ RUN_PANELS = [
     ("Potential energy", "J", "linear", {"potential_energy_J": "potential"}),
 ]
 # Unit by the end of a column's name, longer ends first; other columns are plain numbers.
-UNITS = {"_m2_per_s2": "m²/s²", "_kg_per_s": "kg/s", "_m_per_s": "m/s", "_N_m": "N m", "_deg": "degrees", "_kg": "kg",
+UNITS = {"_m2_per_s2": "m²/s²", "_kg_per_s": "kg/s", "_m_per_s": "m/s", "_N_m": "N m", "_rad_per_s": "rad/s",
+         "_deg": "degrees", "_kg": "kg",
          "_Pa": "Pa", "_m": "m", "_N": "N"}
 COMPONENT = re.compile(r"_([xyz]{1,2})$")
 

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-
 /// How the tables of a scene describe their keys.
 ///
 /// `describe(self, key)` calls key(name, field, Allowed, unit, meaning) for each key in order; it serves a const and a
@@ -20,8 +19,7 @@ namespace talus::scene
 
 /// What a value may be. Numbers lie in [min, max], where `open` leaves min itself out, and are finite unless
 /// `infinite`; a string is one of `names` unless that is empty. A key may belong to some kinds of its table only: those
-/// that have one of the names in `of` as the value of the table's deciding key. A required key may be left out by the
-/// kinds in `optional_for`.
+/// that have one of the names in `of` as the value of the table's deciding key.
 struct Allowed {
     double min = -infinity;
     double max = infinity;
@@ -31,16 +29,9 @@ struct Allowed {
     bool required = false;
     bool decides = false;
     std::vector<std::string_view> of = {};
-    std::vector<std::string_view> optional_for = {};
 
     /// Whether a table has the key when its deciding key has this value.
     bool belongs_to(std::string_view kind) const { return of.empty() || std::ranges::find(of, kind) != of.end(); }
-
-    /// Whether a table must give the key when its deciding key has this value.
-    bool required_by(std::string_view kind) const
-    {
-        return required && std::ranges::find(optional_for, kind) == optional_for.end();
-    }
 };
 
 inline Allowed any()
@@ -76,12 +67,6 @@ inline Allowed required(Allowed allowed)
 inline Allowed deciding(Allowed allowed)
 {
     allowed.decides = true;
-    return allowed;
-}
-inline Allowed required_but_for(std::vector<std::string_view> kinds, Allowed allowed)
-{
-    allowed.required = true;
-    allowed.optional_for = std::move(kinds);
     return allowed;
 }
 inline Allowed only_for(std::vector<std::string_view> kinds, Allowed allowed)

@@ -8,7 +8,8 @@ namespace talus::scene
 
 /// Kinds: mass_flow through a plane; repose, the angle of a heap; slope, that of a free surface; region: packing
 /// fraction, coordination, velocity, granular temperature and stress in it; profile: packing and flow in the bins of a
-/// region; wall_force: force and torque on a wall; wall_position: travel, speed and load of a wall of finite mass.
+/// region; wall_force: force and torque on a wall; wall_position: travel, speed and load of a wall of finite mass;
+/// sphere: where one sphere is, how fast and with which spin.
 struct SensorTable {
     std::string name;
     std::string kind;
@@ -32,6 +33,8 @@ struct SensorTable {
     RegionTable region;
     std::string direction;
     std::int64_t bins = 20;
+    // sphere
+    std::int64_t id = 0;
 
     static void describe(auto& self, auto&& key)
     {
@@ -39,8 +42,8 @@ struct SensorTable {
             "mass_flow", "slope", "region", "profile", "wall_force", "wall_position"};
         key("name", self.name, required(any()), "", "for reports");
         key("kind", self.kind,
-            required(
-                deciding(one_of({"mass_flow", "repose", "slope", "region", "profile", "wall_force", "wall_position"}))),
+            required(deciding(one_of(
+                {"mass_flow", "repose", "slope", "region", "profile", "wall_force", "wall_position", "sphere"}))),
             "", "");
         key("point", self.point, only_for({"mass_flow", "slope", "wall_force"}, any()), "m",
             "mass_flow: a point on the plane; slope: the middle of the surface; wall_force: what torques are about");
@@ -54,6 +57,8 @@ struct SensorTable {
         key("direction", self.direction, required(only_for({"profile"}, one_of({"x", "y", "z", "axial", "radial"}))),
             "", "in which bin follows bin: x, y or z in a box; axial or radial in a cylinder");
         key("bins", self.bins, only_for({"profile"}, between(1, 10000)), "", "how many, equally wide");
+        key("id", self.id, required(only_for({"sphere"}, at_least(0.0))), "",
+            "of the sphere: fills give ids from 0 on, in the order of the scene, then pours as spheres come in");
         key("from", self.from, only_for(averaging, at_least(0.0)), "s", "start of the steady part");
         key("to", self.to, only_for(averaging, or_infinite(at_least(0.0))), "s", "end of the steady part");
         key("base", self.base, only_for({"repose"}, any()), "m", "centre of the heap's floor");

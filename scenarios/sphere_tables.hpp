@@ -120,6 +120,9 @@ struct FillTable {
     DiameterTable diameter;
     std::vector<SpeciesTable> species;
     std::int64_t count = 0;
+    double mass = 0.0;
+    double filling = 0.0;
+    Vec3 position = Vec3::Zero();
     RegionTable region;
     double spacing = 1.1;
     std::string file;
@@ -127,21 +130,27 @@ struct FillTable {
     Vec3 translate = Vec3::Zero();
     Vec3 velocity = Vec3::Zero();
     Vec3 angular_velocity = Vec3::Zero();
+    double temperature = 0.0;
 
     SphereList spheres; ///< of the file, filled in by io, scaled and translated
 
     static void describe(auto& self, auto&& key)
     {
-        key("arrangement", self.arrangement, deciding(one_of({"lattice", "random", "file"})), "",
+        key("arrangement", self.arrangement, deciding(one_of({"lattice", "random", "single", "file"})), "",
             "lattice: a jittered lattice, filled from below; random: anywhere without overlap (loose fills only); "
-            "file: as a file lists them");
+            "single: one sphere; file: as a file lists them");
         key("material", self.material, any(), "", "of the spheres; left out where there are species");
         key("diameter", self.diameter, any(), "m",
             "a number, or a table with a distribution; left out where there are species, or where the file has radii");
         key("species", self.species, only_for({"lattice", "random"}, any()), "",
             "several kinds of spheres, mixed at random");
-        key("count", self.count, required_but_for({"file"}, between(0, 100000000)), "",
-            "how many spheres are there at the start; file: 0, or as many as it has");
+        key("count", self.count, only_for({"lattice", "random", "file"}, between(0, 100000000)), "",
+            "how many spheres are there at the start; 0: by 'mass' or 'filling'; file: 0, or as many as it has");
+        key("mass", self.mass, only_for({"lattice", "random"}, at_least(0.0)), "kg",
+            "of all spheres, to the nearest that whole spheres of mean mass come to");
+        key("filling", self.filling, only_for({"lattice", "random"}, between(0.0, 0.74)), "",
+            "the volume of all spheres, as a share of the region's");
+        key("position", self.position, required(only_for({"single"}, any())), "m", "of the sphere's centre");
         key("region", self.region, required(only_for({"lattice", "random"}, any())), "",
             "where; spheres lie wholly inside");
         key("spacing", self.spacing, only_for({"lattice"}, between(1.0, 100.0)), "",
@@ -154,6 +163,8 @@ struct FillTable {
         key("velocity", self.velocity, any(), "m/s", "of the spheres at the start, added to that of a file");
         key("angular_velocity", self.angular_velocity, any(), "rad/s",
             "of the spheres at the start, added to that of a file");
+        key("temperature", self.temperature, at_least(0.0), "m2/s2",
+            "granular: random velocities are added, normal along each axis, whose mean squares are this");
     }
 };
 

@@ -78,10 +78,12 @@ void print_contents(const OpenedScene& opened)
     for (std::size_t k = 0; k < scene.fill.size(); ++k) {
         const scene::FillTable& fill = scene.fill[k];
         Box box;
-        if (fill.file.empty())
-            box = require_region(fill.region, "").bounds();
-        else
+        if (fill.arrangement == "single")
+            box.extend(fill.position);
+        else if (fill.arrangement == "file")
             for (const Vec3& x : fill.spheres.positions) box.extend(x);
+        else
+            box = require_region(fill.region, "").bounds();
         print_content(fmt::format("fill {}", k), box, d);
     }
     for (const Pour& pour : opened.simulation.pours)

@@ -46,6 +46,13 @@ double Mixture::mean_diameter() const
     return sum;
 }
 
+double Mixture::mean_volume() const
+{
+    double sum = 0.0;
+    for (const Species& s : species) sum += s.number * s.diameter.mean_volume();
+    return sum;
+}
+
 double Mixture::mean_mass(const Materials& materials) const
 {
     double sum = 0.0;

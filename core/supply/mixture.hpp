@@ -34,6 +34,9 @@ struct Mixture {
     /// Of a sphere, by number [m].
     double mean_diameter() const;
 
+    /// Of a sphere, by number [m³].
+    double mean_volume() const;
+
     /// Of a sphere, by number [kg].
     double mean_mass(const Materials& materials) const;
 };

@@ -36,8 +36,7 @@ std::string names_of(const std::vector<std::string_view>& names)
 
 std::string default_of(const scene::Allowed& allowed, const auto& field)
 {
-    if (allowed.required && allowed.optional_for.empty()) return "required";
-    if (allowed.required) return fmt::format("required but with {}", names_of(allowed.optional_for));
+    if (allowed.required) return "required";
     const std::string text = toml_text(field);
     return text == "\"\"" || text == "[]" ? "may be left out" : fmt::format("default {}", text);
 }

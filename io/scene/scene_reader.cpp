@@ -67,8 +67,7 @@ private:
                                            std::string_view unit, std::string_view meaning) {
             if (!wanted(allowed)) return;
             const toml::node* node = table.get(name);
-            if (!node && allowed.required_by(decision_of(described).value))
-                refuse_missing_key(table, at, name, meaning);
+            if (!node && allowed.required) refuse_missing_key(table, at, name, meaning);
             if (!node) return;
             places_[at.key(name)] = place_in(node->source());
             read_field(*node, at.key(name), Key{name, allowed, unit}, field);

@@ -122,6 +122,13 @@ std::vector<std::string> warnings_of(const scene::Scene& scene, const StepChoice
                 text("fill[%d]: without rotation the stacks of so tight a lattice stay upright; give it a "
                      "'spacing' of 1.8, or arrange it at random",
                     static_cast<int>(k)));
+    for (std::size_t k = 0; k < scene.fill.size(); ++k) {
+        const auto& fill = scene.fill[k];
+        const bool is_packing = fill.arrangement == "lattice" || fill.arrangement == "random";
+        if (is_packing && fill.count == 0 && fill.mass == 0.0 && fill.filling == 0.0)
+            warnings.push_back(
+                text("fill[%d] has no spheres: it has no 'count', 'mass' or 'filling'", static_cast<int>(k)));
+    }
     for (const Wall& wall : model.walls) {
         const Box box = bounds(wall.shape);
         const double size = box.empty() ? 0.0 : box.extent().maxCoeff();

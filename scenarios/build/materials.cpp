@@ -4,6 +4,7 @@
 #include "scenarios/build/checks.hpp"
 
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace talus
@@ -40,20 +41,48 @@ std::set<std::string> set_of(const std::vector<std::string>& names)
     return {names.begin(), names.end()};
 }
 
-/// Every pair that can meet must have a law: the materials of spheres with each other and with those of walls.
+/// How many spheres a fill or a pour can have at most.
+double most_spheres(const scene::FillTable& fill)
+{
+    if (fill.arrangement == "single") return 1.0;
+    if (fill.arrangement == "file") return static_cast<double>(fill.spheres.positions.size());
+    return fill.mass > 0.0 || fill.filling > 0.0 ? infinity : static_cast<double>(fill.count);
+}
+double most_spheres(const scene::PourTable& pour)
+{
+    return pour.mass > 0.0 ? infinity : static_cast<double>(pour.count);
+}
+
+/// How many spheres of each material there can be at most.
+std::map<std::string, double> count_spheres(const scene::Scene& scene)
+{
+    std::map<std::string, double> count;
+    const auto add = [&](const auto& tables) {
+        for (const auto& table : tables)
+            for (const auto& name : set_of(materials_in(table))) count[name] += most_spheres(table);
+    };
+    add(scene.fill);
+    add(scene.pour);
+    return count;
+}
+
+/// Every pair that can meet must have a law: the materials of spheres with each other, of those of which there are two
+/// with themselves, and with those of walls.
 void require_laws(const Materials& materials, const GivenPairs& given, const scene::Scene& scene)
 {
-    std::set<std::string> of_spheres;
-    for (const auto& fill : scene.fill) of_spheres.merge(set_of(materials_in(fill)));
-    for (const auto& pour : scene.pour) of_spheres.merge(set_of(materials_in(pour)));
-    std::set<std::string> of_all = of_spheres;
-    for (const auto& wall : scene.wall) of_all.insert(wall.material);
+    const auto spheres = count_spheres(scene);
+    std::set<std::string> of_walls;
+    for (const auto& wall : scene.wall) of_walls.insert(wall.material);
+    const auto can_touch = [&](const std::string& a, const std::string& b) {
+        if (!spheres.contains(a)) return false;
+        return of_walls.contains(b) || (a == b ? spheres.at(a) > 1.0 : spheres.contains(b));
+    };
     const auto n = materials.list.size();
     for (std::size_t a = 0; a < n; ++a)
         for (std::size_t b = 0; b < n; ++b) {
             const auto& name_a = materials.list[a].name;
             const auto& name_b = materials.list[b].name;
-            if (of_spheres.count(name_a) && of_all.count(name_b) && !given[a * n + b])
+            if (can_touch(name_a, name_b) && !given[a * n + b])
                 throw SceneError(
                     "contact", "no [[contact]] between " + name_a + " and " + name_b + ", which can touch");
         }

@@ -6,6 +6,7 @@
 #include "core/sensors/region_average.hpp"
 #include "core/sensors/repose.hpp"
 #include "core/sensors/slope.hpp"
+#include "core/sensors/sphere_track.hpp"
 #include "core/sensors/wall_force.hpp"
 #include "core/sensors/wall_position.hpp"
 #include "scenarios/build/checks.hpp"
@@ -114,6 +115,7 @@ std::unique_ptr<Sensor> build_sensor(const Entry& entry, const Model& model)
     if (entry.table.kind == "slope") return build_slope(entry);
     if (entry.table.kind == "region") return build_region_average(entry);
     if (entry.table.kind == "profile") return build_profile(entry);
+    if (entry.table.kind == "sphere") return std::make_unique<SphereTrack>(entry.table.name, entry.table.id);
     if (entry.table.kind == "wall_position") return build_wall_position(entry, model.walls);
     return build_wall_force(entry, model.walls);
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/build/spheres.hpp"
 
+#include "core/sensors/region_share.hpp"
 #include "scenarios/build/checks.hpp"
 #include "scenarios/build/materials.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace talus
 {
@@ -118,6 +120,27 @@ std::vector<PackedSphere> listed_spheres(
     return spheres;
 }
 
+PackedSphere single_sphere(const scene::FillTable& table, const std::string& key, const Materials& materials)
+{
+    if (table.diameter.distribution != "constant" || !(table.diameter.value > 0.0))
+        throw SceneError(key + ".diameter", "a single sphere has a 'diameter', a number");
+    return {table.position, 0.5 * table.diameter.value, material_index(materials, table.material, key + ".material")};
+}
+
+/// How many spheres a packing has, by number, mass or the share of its region that they fill.
+std::int64_t count_of(const Fill& fill, const Materials& materials)
+{
+    const scene::FillTable& table = fill.table;
+    if ((table.count > 0) + (table.mass > 0.0) + (table.filling > 0.0) > 1)
+        throw SceneError(fill.key + ".count", "give 'count', 'mass' or 'filling', only one of them");
+    double count = static_cast<double>(table.count);
+    if (table.mass > 0.0) count = table.mass / fill.mixture.mean_mass(materials);
+    if (table.filling > 0.0) count = table.filling * volume(fill.region) / fill.mixture.mean_volume();
+    constexpr double most = 1e8; // as for a count
+    if (!(count <= most)) throw SceneError(fill.key + ".mass", "these are more than 100 million spheres");
+    return std::llround(count);
+}
+
 /// Of a count or rate and the mass that may stand for it, a pour has one.
 void require_one(double value, double other, const std::string& key, const std::string& both)
 {
@@ -161,7 +184,7 @@ void require_inside(const Box& world, const Region& region, double diameter, con
 std::vector<PackedSphere> packed_spheres(
     const Fill& fill, const Model& model, const std::vector<PackedSphere>& placed, Random& random)
 {
-    const std::int64_t count = fill.table.count;
+    const std::int64_t count = fill.count;
     const bool lattice = fill.table.arrangement == "lattice";
     auto spheres = lattice
                        ? lattice_packing(fill.region, fill.mixture, count, fill.table.spacing, placed, model, random)
@@ -170,9 +193,20 @@ std::vector<PackedSphere> packed_spheres(
         throw SceneError(fill.key + ".region",
             "the region holds " + std::to_string(spheres.size()) +
                 " spheres of this size clear of walls and earlier fills, not " + std::to_string(count) +
-                (lattice ? "; make it larger, or lower 'count' or 'spacing'"
-                         : "; make it larger, lower 'count', or use arrangement \"lattice\""));
+                (lattice ? "; make it larger, or lower their number or 'spacing'"
+                         : "; make it larger, lower their number, or use arrangement \"lattice\""));
     return spheres;
+}
+
+/// A vector of independent normal numbers with deviation 1 (Box and Muller 1958).
+Vec3 normal_vector(Random& random)
+{
+    Vec3 x;
+    for (int d = 0; d < 3; ++d) {
+        const double size = std::sqrt(-2.0 * std::log(1.0 - uniform(random)));
+        x[d] = size * std::cos(2.0 * std::numbers::pi * uniform(random));
+    }
+    return x;
 }
 
 /// Element i of a list of the file's that may be missing.
@@ -188,11 +222,14 @@ std::vector<Fill> build_fills(const scene::Scene& scene, const Materials& materi
     std::vector<Fill> fills;
     for (std::size_t k = 0; k < scene.fill.size(); ++k) {
         Fill fill{.key = table_path("fill", k), .table = scene.fill[k], .mixture = {}, .region = {}, .listed = {}};
-        if (fill.of_file()) {
+        if (fill.table.arrangement == "file") {
             fill.listed = listed_spheres(fill.table, fill.key, materials);
+        } else if (fill.table.arrangement == "single") {
+            fill.listed = {single_sphere(fill.table, fill.key, materials)};
         } else {
             fill.mixture = build_mixture(fill.table, fill.key, materials);
             fill.region = require_region(fill.table.region, fill.key + ".region");
+            fill.count = count_of(fill, materials);
         }
         fills.push_back(std::move(fill));
     }
@@ -209,11 +246,11 @@ std::vector<Pour> build_pours(const scene::Scene& scene, const Materials& materi
 void require_inside_world(const std::vector<Fill>& fills, const std::vector<Pour>& pours, const Box& world)
 {
     for (const Fill& fill : fills) {
-        if (!fill.of_file()) require_inside(world, fill.region, fill.mixture.max_diameter(), fill.key + ".region");
+        if (!fill.is_list()) require_inside(world, fill.region, fill.mixture.max_diameter(), fill.key + ".region");
         for (std::size_t i = 0; i < fill.listed.size(); ++i)
             if (!world.contains(fill.listed[i].center))
-                throw SceneError(fill.key + ".file",
-                    "sphere " + std::to_string(i) + " of the file lies outside of the world; see [world] min and max");
+                throw SceneError(fill.key + (fill.table.arrangement == "file" ? ".file" : ".position"),
+                    "sphere " + std::to_string(i) + " of the fill lies outside of the world; see [world] min and max");
     }
     for (std::size_t k = 0; k < pours.size(); ++k)
         require_inside(world, pours[k].region, pours[k].mixture.max_diameter(), key_path("pour", k, "region"));
@@ -223,13 +260,14 @@ void place_spheres(State& state, const std::vector<Fill>& fills, const Model& mo
 {
     std::vector<PackedSphere> placed;
     for (const Fill& fill : fills) {
-        const auto spheres = fill.of_file() ? fill.listed : packed_spheres(fill, model, placed, random);
+        const auto spheres = fill.is_list() ? fill.listed : packed_spheres(fill, model, placed, random);
         const scene::SphereList& file = fill.table.spheres;
         for (std::size_t i = 0; i < spheres.size(); ++i) {
             const auto& s = spheres[i];
+            Vec3 velocity = fill.table.velocity + listed(file.velocities, i);
+            if (fill.table.temperature > 0.0) velocity += std::sqrt(fill.table.temperature) * normal_vector(random);
             add_sphere(state, s.center, s.radius, model.materials.list[static_cast<std::size_t>(s.material)].density,
-                s.material, fill.table.velocity + listed(file.velocities, i),
-                fill.table.angular_velocity + listed(file.angular_velocities, i));
+                s.material, velocity, fill.table.angular_velocity + listed(file.angular_velocities, i));
         }
         placed.insert(placed.end(), spheres.begin(), spheres.end());
     }

@@ -11,12 +11,13 @@ namespace talus
 /// A fill that was read and checked, before its spheres are there.
 struct Fill {
     std::string key;                  ///< its path, for errors: "fill[0]"
-    const scene::FillTable& table;    ///< what is taken as it is: count, arrangement, spacing, velocities
+    const scene::FillTable& table;    ///< what is taken as it is: arrangement, spacing, velocities
     Mixture mixture;                  ///< what a packing is made of; that of a file has no species
-    Region region;                    ///< where a packing is to be; of a file: none
-    std::vector<PackedSphere> listed; ///< the spheres of a file, in its order
+    Region region;                    ///< where a packing is to be; of a list: none
+    std::int64_t count = 0;           ///< of a packing
+    std::vector<PackedSphere> listed; ///< the spheres of a file, in its order, or a single one
 
-    bool of_file() const { return table.arrangement == "file"; }
+    bool is_list() const { return table.arrangement == "file" || table.arrangement == "single"; }
 };
 
 /// The fills in the order of the scene, which must outlive them. @throws SceneError

@@ -25,7 +25,7 @@ void find_diameters(Model& model, const std::vector<Fill>& fills, const std::vec
     };
     for (const Fill& fill : fills) {
         for (const auto& [center, radius, material] : fill.listed) add(2.0 * radius, 2.0 * radius, 2.0 * radius, 1.0);
-        if (!fill.of_file()) add_mixture(fill.mixture, static_cast<double>(fill.table.count));
+        if (!fill.is_list()) add_mixture(fill.mixture, static_cast<double>(fill.count));
     }
     for (const Pour& pour : pours) add_mixture(pour.mixture, expected_count(pour, model.materials));
     if (count == 0.0)
@@ -112,7 +112,7 @@ std::vector<Content> contents(
         if (const Box b = swept_bounds(model.walls[k], duration); !b.empty())
             list.push_back({key_path("wall", k, "name"), b});
     for (const Fill& fill : fills) {
-        if (!fill.of_file()) list.push_back({fill.key + ".region", fill.region.bounds()});
+        if (!fill.is_list()) list.push_back({fill.key + ".region", fill.region.bounds()});
         for (const PackedSphere& sphere : fill.listed)
             list.push_back({fill.key + ".file", Box{sphere.center, sphere.center}});
     }

@@ -16,12 +16,13 @@ from read_run import Run  # noqa: E402
 
 COLUMNS = ["time_s", "spheres", "lid_force_x_N", "lid_force_y_N", "lid_force_z_N", "lid_torque_x_N_m", "lid_speed_m_per_s",
            "lid_travel_m", "bed_stress_xx_Pa", "bed_stress_yz_Pa", "bed_granular_temperature_m2_per_s2",
-           "bed_packing_fraction", "out_passed_mass_kg", "out_mass_flow_kg_per_s", "heap_angle_deg"]
+           "bed_packing_fraction", "out_passed_mass_kg", "out_mass_flow_kg_per_s", "heap_angle_deg",
+           "heap_spin_x_rad_per_s"]
 PANELS = [("lid force", "N", "xyz"), ("lid torque", "N m", "x"), ("lid speed", "m/s", ["lid speed"]),
           ("lid travel", "m", ["lid travel"]), ("bed stress", "Pa", ["xx", "yz"]),
           ("bed granular temperature", "m²/s²", ["bed granular temperature"]),
           ("bed packing fraction", "number", ["bed packing fraction"]), ("out passed mass", "kg", ["out passed mass"]),
-          ("out mass flow", "kg/s", ["out mass flow"]), ("heap angle", "degrees", ["heap angle"])]
+          ("out mass flow", "kg/s", ["out mass flow"]), ("heap angle", "degrees", ["heap angle"]), ("heap spin", "rad/s", "x")]
 
 
 def main():

@@ -132,7 +132,7 @@ const std::vector<Situation> situations = {
     edited("a vector is wanted", "min = \\[0, 0, 0\\]", "min = [0, 0]"),
     edited("a name that is not allowed", "^shape = \"box\"", "shape = \"bowl\""),
     edited("a key of another shape", "^open", "hole_radius = 0.01\\nopen"),
-    edited("a missing key", "count = 8", ""),
+    edited("a missing key", "name = \"tray\"", ""),
     set("--set without a value", "time.duration"),
     set("--set of a misspelt key", "time.duraton=1"),
     set("--set of a value that is not TOML", "time.duration=[1"),

@@ -144,12 +144,10 @@ TEST_CASE("a key that a shape must have is asked for where the table stands", "[
     CHECK(refusal_of("[[outlet]]\nregion = {}\n") == "scene.toml:2:10: [region] needs the key 'max' (upper corner)");
 }
 
-TEST_CASE("a key that one kind of table may leave out is asked for in the others", "[scene_reader]")
+TEST_CASE("a key of one kind of table is asked for there, and refused in the others", "[scene_reader]")
 {
-    CHECK(
-        refusal_of("[[fill]]\nmaterial = 'a'\nregion = { max = [1, 1, 1] }\n") ==
-        "scene.toml:1:1: [[fill]] needs the key 'count' (how many spheres are there at the start; file: 0, or as many "
-        "as it has)");
+    CHECK(refusal_of("[[fill]]\nmaterial = 'a'\ncount = 1\n") ==
+          "scene.toml:1:1: [[fill]] needs the key 'region' (where; spheres lie wholly inside)");
     CHECK(
         refusal_of("[[fill]]\nmaterial = 'a'\narrangement = 'file'\n") ==
         "scene.toml:1:1: [[fill]] needs the key 'file' (a .vtp, .vtu or .csv file of spheres, beside the scene file)");

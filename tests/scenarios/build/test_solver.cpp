@@ -6,6 +6,7 @@
 
 using namespace talus;
 using namespace talus::test;
+using Catch::Matchers::Contains;
 
 namespace
 {

@@ -28,7 +28,7 @@ const std::vector<Mistake> of_spheres = {
      },
         "fill[0].region",
         "the region holds 1 spheres of this size clear of walls and earlier fills, not 20; make it larger, or lower "
-        "'count' or "
+        "their number or "
         "'spacing'"},
     {[](S& s) {
          s.fill[0].arrangement = "random";
@@ -36,7 +36,7 @@ const std::vector<Mistake> of_spheres = {
      },
         "fill[0].region",
         "the region holds 1 spheres of this size clear of walls and earlier fills, not 20; make it larger, lower "
-        "'count', or use "
+        "their number, or use "
         "arrangement \"lattice\""},
     {[](S& s) {
          s.fill[0].count = 1;
@@ -46,7 +46,7 @@ const std::vector<Mistake> of_spheres = {
      },
         "fill[1].region",
         "the region holds 0 spheres of this size clear of walls and earlier fills, not 1; make it larger, or lower "
-        "'count' or 'spacing'"},
+        "their number or 'spacing'"},
     {[](S& s) { s.fill[0].region.max.x() = 1100.0; }, "fill[0].region",
         "the region is more than 100 000 spheres across"},
     {[](S& s) { s.world.max.x() = 0.04; }, "fill[0].region",
@@ -190,7 +190,7 @@ const std::vector<Mistake> of_insertion = {
          list_spheres(s);
          s.world.max.x() = 0.02;
      },
-        "fill[0].file", "sphere 1 of the file lies outside of the world; see [world] min and max"},
+        "fill[0].file", "sphere 1 of the fill lies outside of the world; see [world] min and max"},
     {[](S& s) {
          s.pour.push_back(small_pour());
          s.pour[0].count = 0;
