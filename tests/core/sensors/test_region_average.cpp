@@ -221,3 +221,19 @@ TEST_CASE("a region sensor that was stored goes on as if nothing had been", "[re
         CHECK(results[k].spread == expected[k].spread);
     }
 }
+
+TEST_CASE("the branch of a contact is as long as the centres are apart, however much the spheres overlap", "[region]")
+{
+    World world = weightless(matched_settings());
+    world.model.solver.push_out_speed = 0.1;
+    const double distance = 0.8 * d;
+    world.add_sphere(Vec3::Zero());
+    world.add_sphere(Vec3(distance, 0, 0));
+    world.step();
+    const auto forces = world.contact_forces();
+    REQUIRE(forces.size() == 1);
+    const double flux = 2.0 * world.mass() * std::pow(world.state.motion[0].velocity.x(), 2);
+    const double edge = 6.0 * d;
+    const auto there = measure(world, box(Vec3::Constant(-0.5 * edge), Vec3::Constant(0.5 * edge)));
+    CHECK(there.at("stress_xx") * edge * edge * edge == Approx(forces[0].normal_force * distance + flux).epsilon(1e-9));
+}

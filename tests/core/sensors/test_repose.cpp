@@ -109,6 +109,15 @@ TEST_CASE("the spread tells how much the sides of a heap differ", "[repose]")
     CHECK(measured.spread == Approx(3.0 / std::sqrt(7.0)).epsilon(0.25));
 }
 
+TEST_CASE("each of the eight octants counts for the spread", "[repose]")
+{
+    // 20, 22 to 34 degrees, octant by octant: a standard deviation of √24 degrees, over √8.
+    const auto screw = [](double r, double azimuth) {
+        return 0.15 - r * std::tan((20.0 + 2.0 * std::floor(azimuth / (45.0 * degree))) * degree);
+    };
+    CHECK(Heap(screw).angle(0.02, 0.15).spread == Approx(std::sqrt(3.0)).epsilon(0.1));
+}
+
 TEST_CASE("the apex is the height of the heap over its base", "[repose]")
 {
     Repose sensor("heap", Vec3(0.3, -0.2, 0.1), 0.0, 0.0);

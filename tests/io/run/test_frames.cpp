@@ -114,6 +114,21 @@ TEST_CASE("a contact frame has a line with force and ids for each loaded contact
     CHECK(value(data, "wall", 1) == 1);
 }
 
+TEST_CASE("the force of a contact is that of the last sub-step, and its line ends in the other centre", "[frames]")
+{
+    Simulation simulation = stack_of_two();
+    simulation.network.carried.impulse_step = 0.25 * simulation.model.time_step;
+    simulation.state.position[1].z() = 1.25; // an overlap of a quarter
+    simulation.network.contacts.spheres[0].geometry[0].gap = -0.25;
+    const SceneFolder folder;
+    FrameWriter(folder.path()).write_contacts(simulation);
+    const auto frame = read_frame(folder.path() / "frames/contacts_000000.vtp");
+    CHECK(Vec3(frame->GetPoint(0)) == Vec3(0, 0, 1.25));
+    CHECK(Vec3(frame->GetPoint(1)) == Vec3(0, 0, 0.5));
+    CHECK(tuple(frame->GetCellData(), "force", 0).isApprox(Vec3(4, 0, 12), 1e-6));
+    CHECK(value(frame->GetCellData(), "normal_force", 0) == Approx(12.0));
+}
+
 TEST_CASE("contacts with less than the threshold of mean forces are left out", "[frames]")
 {
     const SceneFolder folder;

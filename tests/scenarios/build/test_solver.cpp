@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace talus;
 using namespace talus::test;
 using Catch::Matchers::Contains;
@@ -178,4 +180,31 @@ TEST_CASE("the tolerance is fine where a sphere is five hundred times as heavy a
         scene.time.step = {1e-4, ""};
         CHECK(solver_of(scene).tolerance == 1e-2);
     }
+}
+
+TEST_CASE("overlap is undone with a speed that goes with the mean diameter", "[solver]")
+{
+    auto scene = small_scene();
+    scene.fill[0].diameter = {.distribution = "uniform", .min = 0.004, .max = 0.01};
+    CHECK(solver_of(scene).push_out_speed == Approx(0.1 * std::sqrt(0.007 * 9.81)));
+    scene.world.gravity.setZero();
+    scene.fill[0].velocity = Vec3(1, 0, 0);
+    const Model model = build_scene(scene).simulation.model;
+    CHECK(model.solver.push_out_speed == Approx(0.00072 * 0.007 / model.time_step));
+}
+
+TEST_CASE("a wall of finite mass is held until it is released", "[solver]")
+{
+    auto scene = small_scene();
+    scene.wall.push_back(scene.wall[0]);
+    scene.wall[1].name = "lid";
+    scene.wall[1].min = Vec3(0, 0, 0.5);
+    scene.wall[1].max = Vec3(0.1, 0.1, 0.6);
+    scene.wall[1].mass = 2.0;
+    scene.wall[1].guide = -Vec3::UnitZ();
+    scene.wall[1].released_at = 0.25;
+    const auto simulation = build_scene(scene).simulation;
+    REQUIRE(simulation.model.pistons.size() == 1);
+    CHECK_FALSE(simulation.model.pistons[0].is_free(0.2));
+    CHECK(simulation.model.pistons[0].is_free(0.3));
 }
