@@ -142,4 +142,18 @@ TEST_CASE("a gap that another's impact closes rebounds in the next step, with al
     CHECK(world.velocity(0).z() == within(1e-12, 2.0));
 }
 
+TEST_CASE("what is struck back within an impact rebounds once more", "[restitution]")
+{
+    // An impact leaves no load: the contact is still closed, and the next blow finds it as the first one did.
+    World world = make_world({.restitution = 1.0}, production_settings(Stabilisation::projected), 1e-4);
+    world.add_plane(Vec3::Zero(), Vec3::UnitZ());
+    world.add_sphere(Vec3(0, 0, 0.9 * standard_radius), Vec3(0, 0, -1));
+    for (int blow = 0; blow < 3; ++blow) {
+        world.state.motion[0].velocity = Vec3(0, 0, -1);
+        world.state.position[0].z() = 0.9 * standard_radius;
+        world.step();
+        CHECK(world.velocity(0).z() == Approx(1.0).epsilon(1e-9));
+    }
+}
+
 } // namespace talus::test

@@ -191,3 +191,24 @@ TEST_CASE("a wall that creeps nearer is listed once it is within reach", "[candi
         world.state.time += world.model.time_step;
     }
 }
+
+TEST_CASE("a wall that turns back after a sphere was listed alone finds it listed", "[candidate_search][moving_walls]")
+{
+    // It goes away by nearly its skin, and then comes by twice as much: it has moved no further than its skin since it
+    // was searched for, but further since the sphere was.
+    constexpr double diameter = 2.0 * standard_radius, way = 0.18 * diameter, turn = 0.01; // m, s
+    World world = make_world({}, production_settings(Stabilisation::matched), 1e-4);
+    world.model.gravity.setZero();
+    world.add_sphere(Vec3::Zero());
+    const double x = standard_radius + way;
+    world.add_wall(make_mesh({Vec3(x, -1, -1), Vec3(x, 1, -1), Vec3(x, 0, 1)}, {{0, 1, 2}}),
+        {Course{{{0.0, Vec3::Zero()}, {turn, Vec3(way, 0, 0)}, {3.0 * turn, Vec3(-way, 0, 0)}}}});
+    std::size_t within = 0;
+    for (int k = 0; k < 300; ++k) {
+        world.update_candidates();
+        within = check_walls(world);
+        if (k == 100) world.state.position[0].y() = 0.5 * diameter; // out of its listed box
+        world.state.time += world.model.time_step;
+    }
+    CHECK(within == 1);
+}

@@ -189,3 +189,19 @@ TEST_CASE("new contacts of a wall take over what the old ones with the nearest n
         CHECK(carried.walls.impulse[0] == Vec3::Zero());
     }
 }
+
+TEST_CASE("a sphere that goes over to a facet of another direction takes nothing along", "[wall_contacts]")
+{
+    Carried carried;
+    carried.walls = CarriedImpulses(1, false);
+    carried.wall_normal = {Vec3::UnitZ()};
+    WallPair pair{.sphere = 0, .wall = 0, .first = 0, .patches = 1, .carried = 1};
+    for (const double turn : {0.7, 0.9}) { // rad
+        carried.walls.impulse = {Vec3(0, 0, 3)};
+        carried.wall_normal = {Vec3::UnitZ()};
+        const Vec3 normal(std::sin(turn), 0, std::cos(turn));
+        match_carried(carried, pair, {WallPoint{Vec3::Zero(), normal, 1.0}});
+        CHECK(carried.walls.impulse[0] == (turn < 0.8 ? Vec3(0, 0, 3) : Vec3(0, 0, 0)));
+        CHECK(carried.wall_normal[0] == normal);
+    }
+}

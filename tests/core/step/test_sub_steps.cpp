@@ -92,7 +92,7 @@ TEST_CASE("a stack at rest does not notice steps that are split for a sphere far
     World alone = stack(stabilisation), world = alone;
     const auto fast = world.add_sphere(Vec3(1000, 0, 100));
     const double weight = 10 * world.mass(0) * standard_gravity;
-    double farthest = 0.0, liveliest = 0.0, worst_force = 0.0;
+    double farthest = 0.0, liveliest = 0.0, worst_force = 0.0, worst_energy = 0.0;
     int most_sub_steps = 1;
     for (int round = 0; round < 40; ++round) {
         // now it flies, and now it does not
@@ -101,6 +101,8 @@ TEST_CASE("a stack at rest does not notice steps that are split for a sphere far
             world.step();
             alone.step();
             most_sub_steps = std::max(most_sub_steps, world.report.sub_steps);
+            worst_energy = std::max(
+                worst_energy, std::abs(world.report.contacts.stored_energy - alone.report.contacts.stored_energy));
             worst_force =
                 std::max(worst_force, std::abs(world.report.outcome.wall_impulse.z() / time_step / weight - 1));
             for (int i = 0; i < 10; ++i) {
@@ -115,6 +117,20 @@ TEST_CASE("a stack at rest does not notice steps that are split for a sphere far
     CHECK(farthest < 1e-6 * d);
     CHECK(liveliest < 1e-12 * world.mass(0) * standard_gravity * d);
     CHECK(worst_force < 1e-3);
+    CHECK(worst_energy <= 1e-3 * alone.report.contacts.stored_energy);
+}
+
+TEST_CASE("what is too slow to rebound in a step is so in its parts", "[sub_steps]")
+{
+    // 1.5 g h; impacts from 3 g h on rebound, and the step has 23 parts.
+    World world = make_world(law_of(1.0), production_settings(Stabilisation::projected), time_step);
+    world.model.solver.push_out_speed = push_out_speed;
+    world.add_plane(Vec3::Zero(), Vec3::UnitZ());
+    world.add_sphere(Vec3(0, 0, 0.5 * d), Vec3(0, 0, -1.5 * standard_gravity * time_step));
+    world.add_sphere(Vec3(1000, 0, 100), Vec3(100, 0, 0));
+    world.step();
+    CHECK(world.report.sub_steps > 20);
+    CHECK(std::abs(world.velocity(0).z()) < 0.1 * standard_gravity * time_step);
 }
 
 TEST_CASE("a light sphere between a heavy fast one and a thin wall stays on its side", "[sub_steps]")
