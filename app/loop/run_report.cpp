@@ -71,6 +71,8 @@ void print_sensors(const RunSummary& summary)
             const std::string name = fmt::format("{} {}", sensor.name, m.name);
             if (!std::isfinite(m.value))
                 say("  {:<28} {}\n", name, sensor.silence);
+            else if (m.spread == 0.0)
+                say("  {:<28} {:.5g} {}\n", name, m.value, m.unit);
             else if (!std::isfinite(m.spread))
                 say("  {:<28} {:.5g} {}, from too few samples for a spread\n", name, m.value, m.unit);
             else

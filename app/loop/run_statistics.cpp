@@ -57,7 +57,8 @@ void EnergyBalance::add(const StepReport& report, bool same_spheres)
 void MomentumBalance::add(const StepReport& report, bool same_spheres)
 {
     const StateSurvey& bodies = report.bodies;
-    const WallLoad& walls = report.outcome.from_walls;
+    WallLoad walls = report.outcome.from_walls;
+    walls += report.outcome.from_pistons;
     if (same_spheres) {
         left_over_[0] += (bodies.momentum.linear - last_.linear - bodies.from_gravity.linear - walls.impulse).norm();
         left_over_[1] += (bodies.momentum.angular - last_.angular - bodies.from_gravity.angular - walls.torque).norm();

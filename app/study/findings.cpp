@@ -78,11 +78,11 @@ void Findings::add(const StepReport& report, Simulation& simulation)
 
 void Findings::add_momentum(const StepReport& report, const Simulation& simulation)
 {
-    const Vec3 momentum = linear_momentum(simulation.state);
-    const double h = simulation.model.time_step;
-    if (statistics_.same_spheres() && !simulation.model.physics.pistons) {
-        const Vec3 put_in = h * mass_of(simulation.state) * simulation.model.gravity + report.outcome.wall_impulse;
-        const double unit = h * units_.mass * units_.acceleration;
+    const Vec3 momentum = report.bodies.momentum.linear;
+    if (statistics_.same_spheres()) {
+        const Vec3 put_in =
+            report.bodies.from_gravity.linear + report.outcome.from_walls.impulse + report.outcome.from_pistons.impulse;
+        const double unit = simulation.model.time_step * units_.mass * units_.acceleration;
         momentum_error_ = std::max(momentum_error_, (momentum - momentum_ - put_in).norm() / unit);
     }
     momentum_ = momentum;

@@ -99,7 +99,6 @@ void print_contents(const OpenedScene& opened)
 /// "12 s", "3.4 min", "5.6 h".
 std::string time_in_words(double seconds)
 {
-    if (seconds < 1.0) return "below 1 s";
     if (seconds < 100.0) return fmt::format("{:.2g} s", seconds);
     if (seconds < 6000.0) return fmt::format("{:.2g} min", seconds / 60.0);
     return fmt::format("{:.2g} h", seconds / 3600.0);
@@ -141,8 +140,12 @@ void print_needs(const OpenedScene& opened)
     const Simulation& simulation = opened.simulation;
     const double spheres = static_cast<double>(simulation.state.count()) + poured_count(simulation);
     const double steps = std::ceil(simulation.duration / simulation.model.time_step);
-    say("time: {:.0f} steps; {} (free fall) to {} (dense flow) on one thread\n", steps,
-        time_in_words(fast_sphere_step * steps * spheres), time_in_words(slow_sphere_step * steps * spheres));
+    const double slow = slow_sphere_step * steps * spheres;
+    if (slow < 1.0)
+        say("time: {:.0f} steps; below 1 s\n", steps);
+    else
+        say("time: {:.0f} steps; {} (free fall) to {} (dense flow) on one thread\n", steps,
+            time_in_words(fast_sphere_step * steps * spheres), time_in_words(slow));
     say("memory: about {:.0f} MB\n", 1e-6 * memory_estimate(simulation, spheres));
     say("disk: up to {:.0f} MB\n", std::ceil(1e-6 * disk_estimate(opened, spheres)));
 }

@@ -108,8 +108,8 @@ WallLoad load_from(const TileContacts& walls, const State& state, double h)
 ContactOutcome& ContactOutcome::operator+=(const ContactOutcome& other)
 {
     cone_violation = std::max(cone_violation, other.cone_violation);
-    wall_impulse += other.wall_impulse;
     from_walls += other.from_walls;
+    from_pistons += other.from_pistons;
     wall_work += other.wall_work;
     newly_jammed += other.newly_jammed;
     return *this;
@@ -128,12 +128,11 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
         const TileContacts& walls = contacts.walls[tile];
         outcome = carry(contacts.spheres[tile], network.carried.pairs, gauge, false);
         outcome += carry(walls, network.carried.walls, gauge, true);
-        for (const std::size_t k : walls.indices()) {
-            outcome.wall_impulse += walls.impulse(k);
-            if (walls.has_moving_walls()) outcome.wall_work += walls.impulse(k).dot(walls.wall(k).velocity);
-            if (walls.has_moving_walls() && walls.has_rolling())
-                outcome.wall_work += walls.rolling_impulse(k).dot(walls.wall(k).spin);
-        }
+        if (walls.has_moving_walls())
+            for (const std::size_t k : walls.indices()) {
+                outcome.wall_work += walls.impulse(k).dot(walls.wall(k).velocity);
+                if (walls.has_rolling()) outcome.wall_work += walls.rolling_impulse(k).dot(walls.wall(k).spin);
+            }
         outcome.from_walls = load_from(walls, state, h);
         note_walls_touched(walls, state);
     }
@@ -142,7 +141,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
     PressGauge none = gauge; // a piston gives way
     none.overlap = infinity;
     all += carry(contacts.pistons, network.carried.walls, none, true);
-    all.from_walls += load_from(contacts.pistons, state, h);
+    all.from_pistons = load_from(contacts.pistons, state, h);
     note_walls_touched(contacts.pistons, state);
     return all;
 }

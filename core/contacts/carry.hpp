@@ -11,11 +11,10 @@ namespace talus
 
 /// What is handed on to the next step, read from the solved contacts.
 struct ContactOutcome {
-    double cone_violation = 0.0;      ///< worst |λ_t| − μ λ_n [N s], 0 if none
-    Vec3 wall_impulse = Vec3::Zero(); ///< Σ λ over the contacts with walls that are not pistons [N s]
-    WallLoad from_walls;              ///< on the spheres, of all walls; in place where spheres moved by h v alone
-    double wall_work =
-        0.0; ///< that walls which move as told did on the spheres: Σ λ·w and Σ of rolling rows · spin [J]
+    double cone_violation = 0.0; ///< worst |λ_t| − μ λ_n [N s], 0 if none
+    WallLoad from_walls;    ///< on the spheres, of all that are not pistons, where spheres were before x ← x + h v
+    WallLoad from_pistons;  ///< the same of pistons
+    double wall_work = 0.0; ///< of walls that move as told on the spheres: Σ λ·w and Σ of rolling rows · spin [J]
     std::size_t newly_jammed = 0; ///< contacts that came to be so in this step (TouchRecord)
 
     /// Of another tile of the same step, or of the next sub-step.

@@ -26,7 +26,7 @@ std::vector<double> ForceProfile::forces(
     const State& state, const ContactNetwork& network, const StepReport& report, double time_step) const
 {
     std::vector<double> impulse(cuts_ + 1);
-    impulse[0] = report.outcome.wall_impulse.dot(up_);
+    impulse[0] = report.outcome.from_walls.impulse.dot(up_);
     // Cut k = 1, 2, … is at foot + k spacing: how many of them lie below a centre.
     const auto cuts_below = [&](std::int32_t sphere) {
         const double height = up_.dot(state.position[static_cast<std::size_t>(sphere)]) - foot_;

@@ -61,7 +61,7 @@ Outcome watch(World world, int light, double weight)
     double sweeps = 0.0;
     for (int k = 1; k <= steps; ++k) {
         world.step();
-        const double error = std::abs(world.report.outcome.wall_impulse.z() / time_step - weight) / weight;
+        const double error = std::abs(world.report.outcome.from_walls.impulse.z() / time_step - weight) / weight;
         sweeps += world.report.solve.sweeps;
         if (error > 0.05) out.sweeps = sweeps;
         for (int id = 0; id < light; ++id)

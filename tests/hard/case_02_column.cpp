@@ -69,7 +69,7 @@ Rest watch(World world, int settling)
         world.step();
         rest.drift = std::max(rest.drift, std::abs(world.position(top).z() - height) / d);
         rest.floor_error = std::max(rest.floor_error,
-            std::abs(world.report.outcome.wall_impulse.z() / world.model.time_step - weight) / weight);
+            std::abs(world.report.outcome.from_walls.impulse.z() / world.model.time_step - weight) / weight);
         rest.energy = std::max(rest.energy, energy_of_motion(world) / unit);
         rest.overlap = std::max(rest.overlap, world.report.contacts.worst_overlap / d);
         rest.sweeps += world.report.solve.sweeps / static_cast<double>(steps_at_rest);

@@ -76,7 +76,8 @@ ArchRun run_arch(double friction, Stabilisation law, bool rotation, int steps, b
             for (int id = 0; id < stones; ++id) settled.push_back(world.position(id));
         for (int id = 0; id < stones; ++id)
             run.drift = std::max(run.drift, (world.position(id) - settled[id]).norm() / d);
-        run.load_error = std::max(run.load_error, std::abs(world.report.outcome.wall_impulse.z() / h / weight - 1.0));
+        run.load_error =
+            std::max(run.load_error, std::abs(world.report.outcome.from_walls.impulse.z() / h / weight - 1.0));
     }
     return run;
 }

@@ -47,7 +47,7 @@ Rest settle(Simulation& simulation)
         rest.searched += static_cast<double>(report.search.searched) / static_cast<double>(state.count());
         ++all_steps;
         if (state.time < 0.8 * simulation.duration) continue;
-        const double force = report.outcome.wall_impulse.z() / model.time_step / weight - 1.0;
+        const double force = report.outcome.from_walls.impulse.z() / model.time_step / weight - 1.0;
         rest.force_error += force;
         rest.force_spread += force * force;
         rest.worst_overlap = std::max(rest.worst_overlap, report.contacts.worst_overlap / model.min_diameter);

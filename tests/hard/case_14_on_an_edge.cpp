@@ -50,7 +50,7 @@ Rest rest(const Mesh& floor, const Vec3& place, const Eigen::Matrix3d& turn)
     Rest rest;
     for (int k = 0; k < steps; ++k) {
         world.step();
-        const Vec3 force = turn.transpose() * world.report.outcome.wall_impulse / h;
+        const Vec3 force = turn.transpose() * world.report.outcome.from_walls.impulse / h;
         rest.force_error = std::max(rest.force_error, (force - weight * Vec3::UnitZ()).norm() / weight);
         rest.contacts = std::max(rest.contacts, world.report.contacts.count);
     }

@@ -59,7 +59,8 @@ TEST_CASE("18 very soft and very hard contacts", "[hard]")
     }
     hard.below("soft: overlaps of the column, worst error [d]", overlap_error(column_soft, 0.1 * d), 1e-6);
     hard.below("soft: force on the floor, error",
-        std::abs(column_soft.report.outcome.wall_impulse.z() / column_soft.model.time_step / (height * weight) - 1.0),
+        std::abs(
+            column_soft.report.outcome.from_walls.impulse.z() / column_soft.model.time_step / (height * weight) - 1.0),
         1e-6);
     hard.below("soft: fastest speed [sqrt(2 g 5 d)]", fastest / std::sqrt(2 * standard_gravity * height * d), 1.0);
 
@@ -80,7 +81,7 @@ TEST_CASE("18 very soft and very hard contacts", "[hard]")
     projected.step(4000);
     hard.below("hard, projected: overlaps of the column, worst error [d]", overlap_error(projected, 0.0), 1e-6);
     hard.below("hard, projected: force on the floor, error",
-        std::abs(projected.report.outcome.wall_impulse.z() / projected.model.time_step / (height * weight) - 1.0),
+        std::abs(projected.report.outcome.from_walls.impulse.z() / projected.model.time_step / (height * weight) - 1.0),
         1e-6);
 
     // Oblique impacts, sticking and slipping, against the rigid law in closed form.

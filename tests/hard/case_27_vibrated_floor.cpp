@@ -41,7 +41,7 @@ Ride ride(int spheres, double gamma, Stabilisation law, double periods)
     while (world.state.time < begin + periods / frequency) {
         const double phase = std::remainder(360.0 * frequency * world.state.time, 360.0);
         world.step();
-        const double load = world.report.outcome.wall_impulse.z() / h / weight;
+        const double load = world.report.outcome.from_walls.impulse.z() / h / weight;
         if (load > 0.0) {
             if (result.left_at < 0.0) result.least_load = std::min(result.least_load, load);
             continue;

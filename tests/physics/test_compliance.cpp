@@ -90,7 +90,7 @@ TEST_CASE("a resolved impact on a soft contact rebounds as its step size damps i
         world.step();
         REQUIRE(world.state.steps < 1000);
         deepest = std::max(deepest, standard_radius - world.position().z());
-        pushing += world.report.outcome.wall_impulse.z() > 0;
+        pushing += world.report.outcome.from_walls.impulse.z() > 0;
     }
     CHECK(world.velocity().z() / speed == Approx(rebound).margin(1e-3));
     CHECK(deepest * omega_h / (speed * time_step) == Approx(depth).margin(1e-3));

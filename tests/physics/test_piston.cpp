@@ -39,7 +39,7 @@ Drift drift(const World& world, std::size_t k = 0)
 
 Vec3 floor_force(const World& world)
 {
-    return -world.report.outcome.wall_impulse / h;
+    return -world.report.outcome.from_walls.impulse / h;
 }
 
 } // namespace
@@ -217,8 +217,9 @@ TEST_CASE("what a plate in a jostling heap gains in momentum is what gravity, lo
         world.step();
         contacts += world.network.contacts.pistons.count();
         const auto& by_guide = world.state.pistons[piston].guide_impulse;
-        const Vec3 given = h * (weights * world.model.gravity - load * guide) + world.report.outcome.wall_impulse +
-                           by_guide[0] * across + by_guide[1] * guide.cross(across);
+        const Vec3 given = h * (weights * world.model.gravity - load * guide) +
+                           world.report.outcome.from_walls.impulse + by_guide[0] * across +
+                           by_guide[1] * guide.cross(across);
         REQUIRE((world.momentum() - before - given).norm() < 1e-13);
     }
     CHECK(contacts > 400);

@@ -49,7 +49,7 @@ TEST_CASE("contact k of a column of n spheres carries the weight of n − k + 1"
         CHECK(contact.normal_force == within(1e-10, carried_spheres(contact) * weight));
         CHECK(contact.tangent_force.norm() < 1e-10 * weight);
     }
-    CHECK(world.report.outcome.wall_impulse.z() == within(1e-10, height * weight * time_step));
+    CHECK(world.report.outcome.from_walls.impulse.z() == within(1e-10, height * weight * time_step));
 }
 
 TEST_CASE("a column of soft spheres overlaps by the load over the stiffness in every contact", "[statics][compliance]")

@@ -24,7 +24,7 @@ Quietness watch(Simulation& simulation, double window)
     const double end = state.time + window;
     while (state.time < end) {
         const auto report = advance(simulation);
-        const double support = -report.outcome.wall_impulse.dot(model.gravity) / g / model.time_step;
+        const double support = -report.outcome.from_walls.impulse.dot(model.gravity) / g / model.time_step;
         squares += std::pow(support / (mass * g) - 1.0, 2);
         quiet.overlap += report.contacts.mean_overlap() / d;
         quiet.worst_overlap = std::max(quiet.worst_overlap, report.contacts.worst_overlap / d);

@@ -104,7 +104,7 @@ TEST_CASE("a stack at rest does not notice steps that are split for a sphere far
             worst_energy = std::max(
                 worst_energy, std::abs(world.report.contacts.stored_energy - alone.report.contacts.stored_energy));
             worst_force =
-                std::max(worst_force, std::abs(world.report.outcome.wall_impulse.z() / time_step / weight - 1));
+                std::max(worst_force, std::abs(world.report.outcome.from_walls.impulse.z() / time_step / weight - 1));
             for (int i = 0; i < 10; ++i) {
                 farthest = std::max(farthest, (world.position(i) - alone.position(i)).norm());
                 liveliest = std::max(liveliest, kinetic_energy(world.state.motion[world.index_of(i)]));
