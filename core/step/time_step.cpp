@@ -7,6 +7,7 @@
 #include "core/solver/flight.hpp"
 #include "core/solver/piston_group.hpp"
 #include "core/solver/position_projection.hpp"
+#include "core/step/contact_gain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@ namespace talus
 namespace
 {
 
+constexpr std::int64_t audit_interval = 16;         ///< steps; gains of contacts are looked for in one of so many
 constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
 
 /// Brings the spheres into the order of a space-filling curve now and then, for the sake of the cache.
@@ -182,6 +184,8 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
         std::tie(state.motion, state.pistons) = before;
         return std::nullopt;
     }
+    if (!step.is_split() && state.steps % audit_interval == 0)
+        report.contact_gain = audit_interval * contact_gain(network, state, model, h);
     if (model.physics.wall_loads) report.wall_loads = wall_loads(network, state, model.walls.size());
 
     const bool may_appear = std::ranges::any_of(model.walls, [](const Wall& wall) { return wall.appear_at > 0.0; });

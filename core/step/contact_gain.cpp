@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/step/contact_gain.hpp"
+
+#include "core/packs/law.hpp"
+#include "core/solver/whole_contact.hpp"
+#include "core/step/diagnostics.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace talus
+{
+namespace
+{
+
+/// Of a spring with k = 4 Υ / (Σ_n h²) [J].
+double spring_energy(double gap, double compliance, double h)
+{
+    const double depth = std::max(0.0, -gap);
+    return 2.0 * upsilon / (compliance * h * h) * depth * depth;
+}
+
+/// The gains of contacts of one kind.
+template <bool wall, class R> class Gains
+{
+public:
+    Gains(const CarriedImpulses& carried, const State& state, const Model& model, double h)
+        : carried_(carried), state_(state), model_(model), h_(h)
+    {
+    }
+
+    double of(const TileContacts& contacts) const
+    {
+        double sum = 0.0;
+        for (const std::size_t k : contacts.indices()) {
+            const WholeContact own = whole_contact<wall, R>(contacts, k);
+            sum += std::max(0.0, given_to_bodies(own) - given_by_spring(own, contacts.geometry[k]));
+        }
+        return sum;
+    }
+
+private:
+    const CarriedImpulses& carried_;
+    const State& state_;
+    const Model& model_;
+    double h_;
+
+    /// By how much the contact's impulses raise the bodies' kinetic energy, but for what its wall put in [J].
+    double given_to_bodies(WholeContact own) const
+    {
+        const std::array<Motion, 2> with = {
+            state_.motion[own.contact.a], state_.motion[wall ? own.contact.a : own.contact.b]};
+        std::array<Motion, 2> without = with;
+        own.contact.a = 0;
+        own.contact.b = 1;
+        apply_impulse<wall, R>(own, -own.contact.impulse, without.data());
+        if constexpr (R::rolling) apply_rolling_impulse<wall>(own.contact, -own.rolling.impulse, without.data());
+        double gain = kinetic_energy(with[0]) - kinetic_energy(without[0]);
+        if constexpr (!wall) gain += kinetic_energy(with[1]) - kinetic_energy(without[1]);
+        if constexpr (wall && R::moving_walls) gain -= own.contact.impulse.dot(own.wall.velocity);
+        if constexpr (wall && R::moving_walls && R::rolling) gain -= own.rolling.impulse.dot(own.wall.spin);
+        return gain;
+    }
+
+    /// What the contact's spring gives in the step, where it gives [J]. What an impact overlaps is no spring.
+    double given_by_spring(const WholeContact& own, const ContactGeometry& geometry) const
+    {
+        if (own.terms.compliance == 0.0) return 0.0;
+        const Contact& c = own.contact;
+        const int other = wall ? model_.walls[c.b].material : state_.material[c.b];
+        const bool bears = carried_.touch[geometry.slot].is_loaded() ||
+                           model_.materials.between(state_.material[c.a], other).restitution == 0.0;
+        const double gap = geometry.gap + carried_.free_overlap[geometry.slot];
+        const double way = h_ * contact_velocity<wall, R>(own, state_.motion.data()).dot(c.normal);
+        const double had = bears ? spring_energy(gap, own.terms.compliance, h_) : 0.0;
+        return std::max(0.0, had - spring_energy(gap + way, own.terms.compliance, h_));
+    }
+};
+
+} // namespace
+
+double contact_gain(const ContactNetwork& network, const State& state, const Model& model, double h)
+{
+    const StepContacts& contacts = network.contacts;
+    const auto tiles = static_cast<std::int64_t>(contacts.spheres.size());
+    std::vector<double> of_tile(contacts.spheres.size());
+    with_rows(model.physics, [&](auto rows) {
+        using R = decltype(rows);
+        const Gains<false, R> spheres(network.carried.pairs, state, model, h);
+        const Gains<true, R> walls(network.carried.walls, state, model, h);
+#pragma omp parallel for schedule(dynamic) if (tiles > 16)
+        for (std::int64_t t = 0; t < tiles; ++t) {
+            const auto tile = static_cast<std::size_t>(t);
+            of_tile[tile] = spheres.of(contacts.spheres[tile]) + walls.of(contacts.walls[tile]);
+        }
+    });
+    double sum = 0.0;
+    for (const double one : of_tile) sum += one;
+    return sum;
+}
+
+} // namespace talus
