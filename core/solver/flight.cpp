@@ -55,18 +55,15 @@ public:
 
     void survey_spheres(TileContacts& spheres, std::size_t tile)
     {
-        for (std::size_t k = pack_size * spheres.packs(); k-- > 0;) {
-            const std::int32_t a = spheres.a(k), b = spheres.b(k);
-            if (a < 0 || !(struck_[a] | struck_[b])) continue;
-            const bool in_loaded_bed = is_rigid() ? loaded_[a] | loaded_[b] : loaded_[a] & loaded_[b];
-            if (spheres.geometry[k].waits && !in_loaded_bed)
-                spheres.remove(k);
-            else
-                note(spheres, k);
+        for (std::size_t p = spheres.packs(); p-- > 0;) {
+            if (!any_struck(spheres.pack(p))) continue;
+            const std::size_t first = pack_size * p;
+            for (std::size_t k = first + pack_size; k-- > first;) survey(spheres, k);
+            for (std::size_t k = first + pack_size; k-- > first;)
+                if (spheres.a(k) >= 0 && spheres.geometry[k].kind == ContactKind::impact)
+                    impacts[tile].push_back(static_cast<std::uint32_t>(k));
         }
-        for (const std::size_t k : spheres.indices())
-            if (struck_[spheres.a(k)] && spheres.geometry[k].kind == ContactKind::impact)
-                impacts[tile].push_back(static_cast<std::uint32_t>(k));
+        std::ranges::reverse(impacts[tile]); // the last ones came first, since contacts are taken away from the end
     }
 
     /// Keeps those that meet one other that meets none but them. Moved by one instant they keep their potential energy,
@@ -90,6 +87,25 @@ private:
     const State& state_;
     const Model& model_;
     double h_;
+
+    bool any_struck(const ContactPack& pack) const
+    {
+        bool any = false;
+        for (int lane = 0; lane < pack_size; ++lane)
+            any |= pack.a[lane] >= 0 && (struck_[pack.a[lane]] | struck_[pack.b[lane]]);
+        return any;
+    }
+
+    void survey(TileContacts& spheres, std::size_t k)
+    {
+        const std::int32_t a = spheres.a(k), b = spheres.b(k);
+        if (a < 0 || !(struck_[a] | struck_[b])) return;
+        const bool in_loaded_bed = is_rigid() ? loaded_[a] | loaded_[b] : loaded_[a] & loaded_[b];
+        if (spheres.geometry[k].waits && !in_loaded_bed)
+            spheres.remove(k);
+        else
+            note(spheres, k);
+    }
 
     bool is_rigid() const { return model_.solver.stabilisation == Stabilisation::projected; }
 
