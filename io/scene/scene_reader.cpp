@@ -120,6 +120,9 @@ private:
         if (!node.is_table()) refuse_value(node, key.name, "a table of tables [materials.NAME]");
         for (const auto& [name, material] : *node.as_table()) {
             if (!material.is_table()) refuse_value(material, name.str(), "a table [materials.NAME]");
+            if (!is_printable(name.str()))
+                throw InputError(
+                    fmt::format("{}: the name of a material must be {}", place_in(name.source()), printable_text));
             const Location at{fmt::format("{}.{}", path, name.str()), fmt::format("[materials.{}]", name.str())};
             places_[at.path] = place_in(material.source());
             field.emplace_back().name = name.str();

@@ -62,6 +62,16 @@ std::string enumerate_names(const std::vector<std::string_view>& names, std::str
     return text;
 }
 
+bool is_printable(std::string_view text)
+{
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const auto byte = static_cast<unsigned char>(text[k]);
+        const auto next = static_cast<unsigned char>(k + 1 < text.size() ? text[k + 1] : 0xff);
+        if ((byte < 0x20 && byte != '\t') || byte == 0x7f || (byte == 0xc2 && next < 0xa0)) return false;
+    }
+    return true;
+}
+
 std::string one_line(std::string_view text)
 {
     std::string line(text);

@@ -18,6 +18,12 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string_vi
 /// "'draft', 'standard' or 'fine'" with the conjunction "or".
 std::string enumerate_names(const std::vector<std::string_view>& names, std::string_view conjunction);
 
+/// Whether a text can be printed: it holds no control characters, but perhaps a tab.
+bool is_printable(std::string_view text);
+
+/// What a text must be that is printed.
+inline constexpr std::string_view printable_text = "text without line breaks and control characters";
+
 /// The text with every line break or other control character as a space, for a sentence on one line.
 std::string one_line(std::string_view text);
 

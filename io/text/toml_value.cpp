@@ -65,27 +65,16 @@ std::optional<double> allowed_number(const toml::node& node, const Key& key)
     return allowed_number(node, key, key.unit);
 }
 
-/// Whether a text can be printed: it holds no control characters, but perhaps a tab.
-bool is_printable(std::string_view text)
-{
-    for (std::size_t k = 0; k < text.size(); ++k) {
-        const auto byte = static_cast<unsigned char>(text[k]);
-        const auto next = static_cast<unsigned char>(k + 1 < text.size() ? text[k + 1] : 0xff);
-        if ((byte < 0x20 && byte != '\t') || byte == 0x7f || (byte == 0xc2 && next < 0xa0)) return false;
-    }
-    return true;
-}
-
 bool is_allowed(const std::string& text, const scene::Allowed& allowed)
 {
     return allowed.names.empty() || std::ranges::find(allowed.names, text) != allowed.names.end();
 }
 
-/// The string itself, unless that would break the one line of a sentence.
+/// The string itself, unless that is long or no text to print.
 std::string describe_string(const std::string& text)
 {
     constexpr std::size_t longest_shown = 60;
-    const bool fits = text.size() <= longest_shown && one_line(text) == text;
+    const bool fits = text.size() <= longest_shown && is_printable(text);
     return fits ? fmt::format("the string '{}'", text) : fmt::format("a string of {} bytes", text.size());
 }
 
@@ -220,7 +209,7 @@ void read_value(const toml::node& node, const Key& key, std::string& field)
 {
     const auto* text = node.as_string();
     if (!text || !is_allowed(text->get(), key.allowed)) refuse_name(node, key, expected_value(key, field));
-    if (!is_printable(text->get())) refuse_value(node, key.name, "text without line breaks and control characters");
+    if (!is_printable(text->get())) refuse_value(node, key.name, printable_text);
     field = text->get();
 }
 

@@ -144,6 +144,14 @@ TEST_CASE("a key that a shape must have is asked for where the table stands", "[
     CHECK(refusal_of("[[outlet]]\nregion = {}\n") == "scene.toml:2:10: [region] needs the key 'max' (upper corner)");
 }
 
+TEST_CASE("names have no control characters", "[scene_reader]")
+{
+    CHECK(refusal_of("[materials.\"a\\nb\"]\n") ==
+          "scene.toml:1:12: the name of a material must be text without line breaks and control characters");
+    CHECK(refusal_of("title = \"\\u009b31m\"\n") ==
+          "scene.toml:1:9: 'title' must be text without line breaks and control characters, not a string of 5 bytes");
+}
+
 TEST_CASE("a key of one kind of table is asked for there, and refused in the others", "[scene_reader]")
 {
     CHECK(refusal_of("[[fill]]\nmaterial = 'a'\ncount = 1\n") ==
