@@ -22,9 +22,7 @@ const CLI::Validator from_zero_up(
 void add_set_option(CLI::App& verb, CommandLine& line)
 {
     verb.add_option("--set", line.overrides,
-            "Replace a value of the scene: contact.glass-glass.friction=0.6, by index wall.drum.motion.0.rate='30 "
-            "rpm'; "
-            "repeatable")
+            "Replace a value of the scene: contact.glass-glass.friction=0.6, wall.drum.motion.0.rate=3; repeatable")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
 }

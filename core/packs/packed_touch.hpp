@@ -156,7 +156,7 @@ template <class N>
     if (step.law.rigid) return N{};
     const auto is_spring = (gap < 0.0) & (law.compliance > 0.0);
     const N compliance = is_spring ? law.compliance : N{} + 1.0;
-    const N energy = 2.0 * upsilon / (compliance * step.law.h * step.law.h) * gap * gap * law.feedback_share;
+    const N energy = spring_energy<N>(gap, compliance, step.law.h) * law.feedback_share;
     return is_spring ? energy : N{};
 }
 

@@ -13,13 +13,6 @@ namespace talus
 namespace
 {
 
-/// Of a spring with k = 4 Υ / (Σ_n h²) [J].
-double spring_energy(double gap, double compliance, double h)
-{
-    const double depth = std::max(0.0, -gap);
-    return 2.0 * upsilon / (compliance * h * h) * depth * depth;
-}
-
 /// The gains of contacts of one kind.
 template <bool wall, class R> class Gains
 {
@@ -72,8 +65,8 @@ private:
                            model_.materials.between(state_.material[c.a], other).restitution == 0.0;
         const double gap = geometry.gap + carried_.free_overlap[geometry.slot];
         const double way = h_ * contact_velocity<wall, R>(own, state_.motion.data()).dot(c.normal);
-        const double had = bears ? spring_energy(gap, own.terms.compliance, h_) : 0.0;
-        return std::max(0.0, had - spring_energy(gap + way, own.terms.compliance, h_));
+        const auto held_at = [&](double at) { return spring_energy(std::min(0.0, at), own.terms.compliance, h_); };
+        return std::max(0.0, (bears ? held_at(gap) : 0.0) - held_at(gap + way));
     }
 };
 

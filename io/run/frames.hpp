@@ -33,8 +33,8 @@ public:
     /// @throws OutputError
     void write_contacts(const Simulation& simulation);
 
-    /// The walls that stand at this time and do not move, as triangles with the wall's index. Planes are drawn as large
-    /// as the world.
+    /// The walls that stand at this time and do not move, as triangles with the wall's index. Planes are drawn
+    /// twice as wide as what the scene holds.
     /// @throws OutputError
     void write_walls(const Model& model, const State& state);
 

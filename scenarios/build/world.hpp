@@ -14,7 +14,7 @@ void find_diameters(Model& model, const std::vector<Fill>& fills, const std::vec
 
 /// The periodic axes, from the corners of the world.
 /// @param max_diameter of the spheres [m]
-/// @throws SceneError where a corner is not given or the cell is shorter than four spheres
+/// @throws SceneError where a corner is not given or the cell is shorter than 2.2 of the largest spheres
 Periodicity build_periodicity(const scene::WorldTable& table, double max_diameter);
 
 /// Whether a place is near enough to the origin for numbers to tell places apart, and for cells to be counted.
