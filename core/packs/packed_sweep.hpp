@@ -219,17 +219,40 @@ private:
     }
 };
 
+constexpr std::size_t packs_ahead = 4;   ///< packs that are fetched into the cache before their turn
+constexpr std::size_t spheres_ahead = 2; ///< packs whose spheres are
+
+/// Asks for what the packs to come will need: beyond the second cache a sweep would wait for it most of its time.
+template <bool wall, class R>
+[[gnu::always_inline]] inline void prefetch(const PackSpan& packs, std::size_t p, const double* motion)
+{
+    constexpr std::size_t line = 64;
+    if (p + packs_ahead < packs.count) {
+        const char* pack = reinterpret_cast<const char*>(packs.contact + p + packs_ahead);
+        for (std::size_t at = 0; at < sizeof(ContactPack); at += line) __builtin_prefetch(pack + at, 1);
+    }
+    if (p + spheres_ahead < packs.count) {
+        const ContactPack& pack = packs.contact[p + spheres_ahead];
+        for (int lane = 0; lane < pack_size; ++lane) {
+            __builtin_prefetch(motion + std::int64_t{motion_size} * pack.a[lane], 1);
+            if constexpr (!wall) __builtin_prefetch(motion + std::int64_t{motion_size} * pack.b[lane], 1);
+        }
+    }
+}
+
 /// Calls visit(contacts) for all contacts of these packs, `width` at a time.
 template <int width, bool wall, class R, class Visit>
 [[gnu::always_inline]] inline void for_each_group(const PackSpan& packs, double* motion, Visit visit)
 {
-    for (std::size_t p = 0; p < packs.count; ++p)
+    for (std::size_t p = 0; p < packs.count; ++p) {
+        prefetch<wall, R>(packs, p, motion);
         for (int first = 0; first < pack_size; first += width) {
             if (packs.contact[p].a[first + width - 1] >= 0)
                 visit(Contacts<width, wall, R, true>(packs, p, motion, first));
             else
                 visit(Contacts<width, wall, R, false>(packs, p, motion, first));
         }
+    }
 }
 
 template <int width, class R, bool apply_change>
