@@ -31,7 +31,7 @@ sys.path.insert(0, str(HERE.parents[2] / "postprocess"))
 from read_run import Run, read_frame  # noqa: E402  after its folder was named
 
 MEAN = 0.5 * (SMALLEST + LARGEST)
-TALUS_STEP = 0.008 * math.sqrt(SMALLEST / 9.81)  # s; the automatic one, nearly: of the smallest that there may be
+TALUS_STEP = 0.0072 * math.sqrt(SMALLEST / 9.81)  # s; the automatic one, nearly: of the smallest that there may be
 
 
 class PeerError(Exception):
