@@ -101,7 +101,7 @@ struct PartTable : RegionTable {
 
     static void describe(auto& self, auto&& key)
     {
-        RegionTable::describe(self, key, {"everything", "box", "cylinder"});
+        RegionTable::describe(self, key, {"everything", "box", "cylinder", "cone", "sphere", "mesh"});
     }
 };
 

@@ -6,6 +6,11 @@
 namespace talus::scene
 {
 
+/// A region over which is averaged: of these shapes the parts of spheres and of contacts inside are known.
+struct AveragingTable : RegionTable {
+    static void describe(auto& self, auto&& key) { RegionTable::describe(self, key, {"box", "cylinder"}); }
+};
+
 /// Kinds: mass_flow through a plane; repose, the angle of a heap; slope, that of a free surface; region: packing
 /// fraction, coordination, velocity, granular temperature and stress in it; profile: packing and flow in the bins of a
 /// region; wall_force: force and torque on a wall; wall_position: travel, speed and load of a wall of finite mass;
@@ -30,7 +35,7 @@ struct SensorTable {
     double inner_radius = 0.0;
     double outer_radius = 0.0;
     // region and profile
-    RegionTable region;
+    AveragingTable region;
     std::string direction;
     std::int64_t bins = 20;
     // sphere

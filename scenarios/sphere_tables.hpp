@@ -3,6 +3,10 @@
 
 #include "scenarios/allowed.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
 /// Materials, contacts, and the spheres there are: [materials.NAME], [[contact]], [[fill]], [[pour]] and [[outlet]].
 namespace talus::scene
 {
@@ -40,20 +44,46 @@ struct RegionTable {
     Vec3 max = Vec3::Zero();
     Vec3 base = Vec3::Zero();
     Vec3 axis = Vec3::UnitZ();
+    Vec3 center = Vec3::Zero();
     double radius = 0.0;
+    double base_radius = 0.0;
+    double top_radius = 0.0;
     double height = 0.0;
+    std::string mesh = {};
+    double scale = 1.0;
+    Vec3 translate = Vec3::Zero();
 
-    static void describe(auto& self, auto&& key) { describe(self, key, {"box", "cylinder"}); }
+    std::vector<Vec3> vertices = {};                    ///< of the mesh, filled in by io, scaled and translated
+    std::vector<std::array<std::int32_t, 3>> triangles = {}; ///< of the mesh, filled in by io
 
-    static void describe(auto& self, auto&& key, std::vector<std::string_view> shapes)
+    static void describe(auto& self, auto&& key) { describe(self, key, {"box", "cylinder", "cone", "sphere", "mesh"}); }
+
+    /// @param shapes that the region may have, among them box and cylinder
+    static void describe(auto& self, auto&& key, const std::vector<std::string_view>& shapes)
     {
-        key("shape", self.shape, deciding(one_of(std::move(shapes))), "", "");
+        // The keys of the other shapes only where these may stand.
+        const auto with = [&](const char* shape, std::vector<std::string_view> kinds) {
+            if (std::ranges::find(shapes, shape) != shapes.end()) kinds.emplace_back(shape);
+            return kinds;
+        };
+        const bool all = with("mesh", {}).size() == 1;
+        key("shape", self.shape, deciding(one_of(shapes)), "", all ? "mesh: the inside of a closed one" : "");
         key("min", self.min, only_for({"box"}, any()), "m", "lower corner");
         key("max", self.max, required(only_for({"box"}, any())), "m", "upper corner");
-        key("base", self.base, only_for({"cylinder"}, any()), "m", "centre of the first end");
-        key("axis", self.axis, only_for({"cylinder"}, any()), "", "direction from the first end to the second");
-        key("radius", self.radius, required(only_for({"cylinder"}, at_least(0.0))), "m", "of the cylinder");
-        key("height", self.height, required(only_for({"cylinder"}, at_least(0.0))), "m", "distance of the ends");
+        key("base", self.base, only_for(with("cone", {"cylinder"}), any()), "m", "centre of the first end");
+        key("axis", self.axis, only_for(with("cone", {"cylinder"}), any()), "",
+            "direction from the first end to the second");
+        key("radius", self.radius, required(only_for(with("sphere", {"cylinder"}), at_least(0.0))), "m",
+            all ? "of the cylinder or sphere" : "of the cylinder");
+        key("height", self.height, required(only_for(with("cone", {"cylinder"}), at_least(0.0))), "m",
+            "distance of the ends");
+        if (!all) return;
+        key("center", self.center, only_for({"sphere"}, any()), "m", "of the sphere");
+        key("base_radius", self.base_radius, only_for({"cone"}, at_least(0.0)), "m", "of the first end");
+        key("top_radius", self.top_radius, only_for({"cone"}, at_least(0.0)), "m", "of the second end");
+        key("mesh", self.mesh, required(only_for({"mesh"}, any())), "", "an STL file, beside the scene file");
+        key("scale", self.scale, only_for({"mesh"}, above(0.0)), "", "the file's numbers times this are metres");
+        key("translate", self.translate, only_for({"mesh"}, any()), "m", "moved by this after scaling");
     }
 };
 
@@ -124,6 +154,7 @@ struct FillTable {
     double filling = 0.0;
     Vec3 position = Vec3::Zero();
     RegionTable region;
+    std::vector<RegionTable> except;
     double spacing = 1.1;
     std::string file;
     double scale = 1.0;
@@ -136,23 +167,25 @@ struct FillTable {
 
     static void describe(auto& self, auto&& key)
     {
-        key("arrangement", self.arrangement, deciding(one_of({"lattice", "random", "single", "file"})), "",
+        key("arrangement", self.arrangement, deciding(one_of({"lattice", "random", "dense", "single", "file"})), "",
             "lattice: a jittered lattice, filled from below; random: anywhere without overlap (loose fills only); "
-            "single: one sphere; file: as a file lists them");
+            "dense: at random and then pushed apart, up to 0.6 of the region; single: one sphere; file: as a file "
+            "lists them");
         key("material", self.material, any(), "", "of the spheres; left out where there are species");
         key("diameter", self.diameter, any(), "m",
             "a number, or a table with a distribution; left out where there are species, or where the file has radii");
-        key("species", self.species, only_for({"lattice", "random"}, any()), "",
+        key("species", self.species, only_for({"lattice", "random", "dense"}, any()), "",
             "several kinds of spheres, mixed at random");
-        key("count", self.count, only_for({"lattice", "random", "file"}, between(0, 100000000)), "",
+        key("count", self.count, only_for({"lattice", "random", "dense", "file"}, between(0, 100000000)), "",
             "how many spheres are there at the start; 0: by 'mass' or 'filling'; file: 0, or as many as it has");
-        key("mass", self.mass, only_for({"lattice", "random"}, at_least(0.0)), "kg",
+        key("mass", self.mass, only_for({"lattice", "random", "dense"}, at_least(0.0)), "kg",
             "of all spheres, to the nearest that whole spheres of mean mass come to");
-        key("filling", self.filling, only_for({"lattice", "random"}, between(0.0, 0.74)), "",
+        key("filling", self.filling, only_for({"lattice", "random", "dense"}, between(0.0, 0.74)), "",
             "the volume of all spheres, as a share of the region's");
         key("position", self.position, required(only_for({"single"}, any())), "m", "of the sphere's centre");
-        key("region", self.region, required(only_for({"lattice", "random"}, any())), "",
-            "where; spheres lie wholly inside");
+        key("region", self.region, required(only_for({"lattice", "random", "dense"}, any())), "",
+            "where; spheres lie wholly inside, and on the side of closed walls where more of it lies");
+        key("except", self.except, only_for({"lattice", "random", "dense"}, any()), "", "regions that are kept free");
         key("spacing", self.spacing, only_for({"lattice"}, between(1.0, 100.0)), "",
             "distance of the lattice's points / largest diameter");
         key("file", self.file, required(only_for({"file"}, any())), "",

@@ -2,9 +2,9 @@
 #include "app/verbs/check_scene.hpp"
 
 #include "app/system/terminal.hpp"
+#include "core/world/closed_mesh.hpp"
 #include "io/text/input_error.hpp"
 #include "scenarios/build/checks.hpp"
-#include "scenarios/build/meshes.hpp"
 
 #include <cmath>
 

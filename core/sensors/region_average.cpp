@@ -111,9 +111,9 @@ void RegionAverage::sample(const Snapshot& now)
     const Content content = content_of(region_, now);
     const Tensor fluctuation = content.fluctuation();
     const Tensor virial = contact_virial(region_, now);
-    const Tensor stress = (0.5 * (virial + virial.transpose()) + fluctuation) / volume(region_);
+    const Tensor stress = (0.5 * (virial + virial.transpose()) + fluctuation) / region_.volume();
     const Vec3 u = content.velocity();
-    latest_ = {content.solid_volume / volume(region_), content.contacts / content.spheres,
+    latest_ = {content.solid_volume / region_.volume(), content.contacts / content.spheres,
         content.backbone_links / content.backbone, u.x(), u.y(), u.z(), fluctuation.trace() / (3.0 * content.mass),
         stress(0, 0), stress(1, 1), stress(2, 2), stress(1, 2), stress(0, 2), stress(0, 1), stress.trace() / 3.0};
     if (!window_.contains(now.state.time)) return;

@@ -62,8 +62,8 @@ Region RegionBins::core(std::size_t bin) const
 
 double RegionBins::volume(std::size_t bin) const
 {
-    if (direction_ != Direction::radial) return talus::volume(slice(bin));
-    return talus::volume(core(bin)) - (bin > 0 ? talus::volume(core(bin - 1)) : 0.0);
+    if (direction_ != Direction::radial) return slice(bin).volume();
+    return core(bin).volume() - (bin > 0 ? core(bin - 1).volume() : 0.0);
 }
 
 double RegionBins::share_of(std::size_t bin, const Vec3& center, double radius) const

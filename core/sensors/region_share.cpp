@@ -139,12 +139,6 @@ void cut_by_mantle(Interval& part, const Vec3& out, const Vec3& step, double rad
 
 } // namespace
 
-double volume(const Region& region)
-{
-    if (region.shape == Region::Shape::box) return region.box.extent().prod();
-    return pi * region.radius * region.radius * region.height;
-}
-
 double ball_share(const Region& region, const Vec3& center, double radius)
 {
     if (region.shape == Region::Shape::box) return ball_share_of_box(region.box, center, radius);

@@ -6,9 +6,6 @@
 namespace talus
 {
 
-/// [m³]
-double volume(const Region& region);
-
 /// Which share of a ball's volume lies inside a region, 0 to 1. Exact where plane faces across one direction cut the
 /// ball; elsewhere the exact areas of 17 slices, summed by Simpson's rule: wrong by less than 1e-3 of the ball, whose
 /// sign changes with its place, so that the errors of many balls cancel.

@@ -52,8 +52,8 @@ std::optional<Vec3> find_place(Pour& source, const State& state, const std::vect
 {
     const double radius = 0.5 * source.pending.diameter;
     for (int k = 0; k < tries; ++k) {
-        const Vec3 x = source.region.random_point(source.random, radius);
-        if (!overlaps_sphere(state, near, x, radius, periodicity) && !touches_wall(walls, x, radius)) return x;
+        const auto x = source.region.random_point(source.random, radius);
+        if (x && !overlaps_sphere(state, near, *x, radius, periodicity) && !touches_wall(walls, *x, radius)) return x;
     }
     return std::nullopt;
 }

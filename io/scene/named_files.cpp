@@ -32,14 +32,14 @@ auto read_named_file(
     }
 }
 
-/// Reads the mesh of a wall, and brings it to metres and into place.
-void read_mesh(const SceneFile& file, const std::string& key, scene::WallTable& wall)
+/// Reads the mesh of a wall or region, and brings it to metres and into place.
+void read_mesh(const SceneFile& file, const std::string& key, auto& table, const std::string& owner = "")
 {
-    TriangleSoup soup =
-        read_named_file(file, key + ".mesh", wall.mesh, read_stl, fmt::format("wall '{}': ", wall.name));
-    for (Vec3& vertex : soup.vertices) vertex = wall.scale * vertex + wall.translate;
-    wall.vertices = std::move(soup.vertices);
-    wall.triangles = std::move(soup.triangles);
+    if (table.shape != "mesh" || table.mesh.empty()) return;
+    TriangleSoup soup = read_named_file(file, key + ".mesh", table.mesh, read_stl, owner);
+    for (Vec3& vertex : soup.vertices) vertex = table.scale * vertex + table.translate;
+    table.vertices = std::move(soup.vertices);
+    table.triangles = std::move(soup.triangles);
 }
 
 /// Reads the spheres of a fill, and brings them to metres and into place.
@@ -108,14 +108,23 @@ void read_named_files(SceneFile& file)
 {
     scene::Scene& scene = file.scene;
     for (std::size_t i = 0; i < scene.wall.size(); ++i)
-        if (scene.wall[i].shape == "mesh" && !scene.wall[i].mesh.empty())
-            read_mesh(file, fmt::format("wall[{}]", i), scene.wall[i]);
+        read_mesh(file, fmt::format("wall[{}]", i), scene.wall[i], fmt::format("wall '{}': ", scene.wall[i].name));
     for (std::size_t i = 0; i < scene.fill.size(); ++i) {
         const std::string key = fmt::format("fill[{}]", i);
-        read_analyses(file, key, scene.fill[i]);
-        if (scene.fill[i].arrangement == "file") read_fill(file, key, scene.fill[i]);
+        scene::FillTable& fill = scene.fill[i];
+        read_analyses(file, key, fill);
+        read_mesh(file, key + ".region", fill.region);
+        for (std::size_t k = 0; k < fill.except.size(); ++k)
+            read_mesh(file, fmt::format("{}.except[{}]", key, k), fill.except[k]);
+        if (fill.arrangement == "file") read_fill(file, key, fill);
     }
-    for (std::size_t i = 0; i < scene.pour.size(); ++i) read_analyses(file, fmt::format("pour[{}]", i), scene.pour[i]);
+    for (std::size_t i = 0; i < scene.pour.size(); ++i) {
+        read_analyses(file, fmt::format("pour[{}]", i), scene.pour[i]);
+        read_mesh(file, fmt::format("pour[{}].region", i), scene.pour[i].region);
+    }
+    for (std::size_t i = 0; i < scene.outlet.size(); ++i)
+        read_mesh(file, fmt::format("outlet[{}].region", i), scene.outlet[i].region);
+    read_mesh(file, "output.region", scene.output.region);
 }
 
 std::vector<NamedFile> named_files(scene::Scene scene)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/build/checks.hpp"
 
+#include "core/world/closed_mesh.hpp"
+
 #include <cmath>
 
 namespace talus
@@ -56,12 +58,32 @@ Region require_region(const scene::RegionTable& table, const std::string& key)
         region.box = require_box(table.min, table.max, key + ".max");
         return region;
     }
-    require_positive(table.radius, key + ".radius", "the radius of a cylinder");
-    require_positive(table.height, key + ".height", "the height of a cylinder");
-    region.shape = Region::Shape::cylinder;
+    if (table.shape == "mesh") {
+        const Mesh mesh = make_mesh(table.vertices, table.triangles);
+        if (mesh.triangles.empty()) throw SceneError(key + ".mesh", "a region needs an STL file with triangles");
+        if (const auto open = open_edges(mesh); open > 0)
+            throw SceneError(key + ".mesh", "nothing is inside of '" + table.mesh + "': " + std::to_string(open) +
+                                                " of its edges have one triangle only");
+        return *inside_of(mesh);
+    }
+    if (table.shape == "sphere") {
+        require_positive(table.radius, key + ".radius", "the radius of a sphere");
+        region.shape = Region::Shape::sphere;
+        region.base = table.center;
+        region.radius = table.radius;
+        return region;
+    }
+    const bool cone = table.shape == "cone";
+    region.shape = cone ? Region::Shape::cone : Region::Shape::cylinder;
+    if (cone)
+        require_positive(table.base_radius + table.top_radius, key + ".base_radius", "a radius of a cone");
+    else
+        require_positive(table.radius, key + ".radius", "the radius of a cylinder");
+    require_positive(table.height, key + ".height", "the height of a " + table.shape);
     region.base = table.base;
     region.axis = unit_vector(table.axis, key + ".axis");
-    region.radius = table.radius;
+    region.radius = cone ? table.base_radius : table.radius;
+    region.top_radius = table.top_radius;
     region.height = table.height;
     return region;
 }

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 
 namespace talus
 {
@@ -49,18 +48,6 @@ std::string left_out_of_mesh(const scene::WallTable& table)
         std::count_if(first, table.triangles.end(), is_flat), table.triangles.size());
     return "wall '" + table.name + "': " + text + number_of(static_cast<std::size_t>(first - table.triangles.begin())) +
            " of '" + table.mesh + "'";
-}
-
-std::size_t open_edges(const Mesh& mesh)
-{
-    std::map<std::pair<std::int32_t, std::int32_t>, int> triangles_at;
-    for (const auto& triangle : mesh.triangles)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto [a, b] = std::minmax(triangle[k], triangle[(k + 1) % 3]);
-            ++triangles_at[{a, b}];
-        }
-    return static_cast<std::size_t>(
-        std::ranges::count_if(triangles_at, [](const auto& edge) { return edge.second == 1; }));
 }
 
 } // namespace talus

@@ -17,7 +17,4 @@ Mesh build_mesh(const scene::WallTable& table, double diameter, const std::strin
 /// What a wall's STL file has that its mesh has not; empty where that is nothing.
 std::string left_out_of_mesh(const scene::WallTable& table);
 
-/// How many edges belong to one triangle only: none where a mesh is closed.
-std::size_t open_edges(const Mesh& mesh);
-
 } // namespace talus

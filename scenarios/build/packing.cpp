@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/build/packing.hpp"
 
-#include "core/world/placed_wall.hpp"
+#include "core/world/closed_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace talus
 namespace
 {
 
-constexpr int tries = 2000;                    ///< places tried for one sphere of a random packing
+constexpr int tries = 2000;                    ///< places tried for one sphere of a random or dense packing
 constexpr std::int64_t most_places = 10000000; ///< of a lattice, and ten for each sphere, tried in vain
 
 /// Spheres sorted into cubes as large as the largest of them, to find those near a place.
@@ -95,12 +95,83 @@ struct LatticeFrame {
 
 } // namespace
 
-std::vector<PackedSphere> lattice_packing(const Region& region, const Mixture& mixture, std::int64_t count,
-    double spacing, const std::vector<PackedSphere>& others, const Model& model, Random& random)
+PackingRoom::PackingRoom(const Region& region, std::vector<Region> except, const Model& model)
+    : region_(region), model_(model), except_(std::move(except)), walls_(place_walls_at_start(model))
+{
+    for (const PlacedWall& wall : walls_) {
+        auto inside = wall.stands() ? inside_of(wall.wall().shape) : std::nullopt;
+        if (inside) closed_.push_back({std::move(*inside), wall.pose().inverse(), false});
+    }
+    const Box bounds = region.bounds();
+    for (ClosedWall& wall : closed_) {
+        constexpr int places = 16; // along each axis
+        int balance = 0;           // places of the region inside the wall, less those outside
+        for (int i = 0; i < places * places * places; ++i) {
+            const Vec3 at = (Vec3(i % places, i / places % places, i / places / places).array() + 0.5) / places;
+            const Vec3 x = bounds.min + at.cwiseProduct(bounds.extent());
+            if (region.contains(x)) balance += wall.inside.contains(wall.into(x)) ? 1 : -1;
+        }
+        wall.filled = balance > 0;
+    }
+}
+
+bool PackingRoom::on_right_side(const Vec3& x) const
+{
+    return std::ranges::all_of(
+        closed_, [&](const ClosedWall& wall) { return wall.inside.contains(wall.into(x)) == wall.filled; });
+}
+
+bool PackingRoom::holds(const Vec3& center, double radius) const
+{
+    return region_.contains(center, radius) &&
+           std::ranges::all_of(except_, [&](const Region& free) { return free.depth(center) <= -radius; }) &&
+           !touches_wall(walls_, center, radius) && on_right_side(center);
+}
+
+Vec3 PackingRoom::way_in(const Vec3& center, double radius) const
+{
+    double least = 0.0; // the greatest breach has the least margin
+    Vec3 way = Vec3::Zero();
+    const auto ask = [&](double margin, auto&& direction) {
+        if (margin >= least) return;
+        least = margin;
+        way = -margin * direction();
+    };
+    const auto inwards = [&](const Region& region, const Vec3& x) {
+        Vec3 slope;
+        for (int d = 0; d < 3; ++d) {
+            const Vec3 step = 1e-4 * radius * Vec3::Unit(d);
+            slope[d] = region.depth(x + step) - region.depth(x - step);
+        }
+        return slope.stableNormalized();
+    };
+    ask(region_.depth(center) - radius, [&] { return inwards(region_, center); });
+    for (const Region& free : except_) ask(-free.depth(center) - radius, [&] { return Vec3(-inwards(free, center)); });
+    for (const PlacedWall& wall : walls_) {
+        if (!wall.stands()) continue;
+        std::vector<std::int32_t> patches;
+        wall.patches_near(Box{center, center}.grown(radius), patches);
+        for (const auto k : patches) {
+            const WallPoint at = wall.nearest_point(static_cast<std::size_t>(k), center);
+            ask(at.distance - radius, [&] { return at.normal; });
+        }
+    }
+    for (const ClosedWall& wall : closed_) {
+        const Vec3 x = wall.into(center);
+        if (wall.inside.contains(x) == wall.filled) continue;
+        const double sign = wall.filled ? 1.0 : -1.0;
+        ask(sign * wall.inside.depth(x) - radius,
+            [&] { return Vec3(sign * (wall.into.rotation.transpose() * inwards(wall.inside, x))); });
+    }
+    return way;
+}
+
+std::vector<PackedSphere> lattice_packing(const PackingRoom& room, const Mixture& mixture, std::int64_t count,
+    double spacing, const std::vector<PackedSphere>& others, Random& random)
 {
     const double a = spacing * mixture.max_diameter(); // distance of nearest lattice points
-    const LatticeFrame frame(model);
-    const Box bounds = region.bounds();
+    const LatticeFrame frame(room.model());
+    const Box bounds = room.region().bounds();
     const Vec3 middle = bounds.center();
     // Half the region's size along each direction of the frame.
     const auto half = [&](const Vec3& e) { return 0.5 * bounds.extent().dot(e.cwiseAbs()); };
@@ -110,7 +181,6 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const Mixture& m
     const auto layers = places(2.0 * half(frame.up)), rows = places(half(frame.e1)), columns = places(half(frame.e2));
 
     const auto grid = grid_of(others, mixture);
-    const auto walls = place_walls_at_start(model);
     std::vector<PackedSphere> spheres;
     Grain next = mixture.draw(random);
     std::int64_t in_vain = 0; // places that were taken, or outside
@@ -124,8 +194,7 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const Mixture& m
                                    static_cast<double>(j) * a * frame.e2 +
                                    (0.5 * a - half(frame.up) + static_cast<double>(k) * a) * frame.up;
                 const PackedSphere sphere{point + jitter, radius, next.material};
-                if (!region.contains(sphere.center, radius) || grid.overlaps(sphere) ||
-                    touches_wall(walls, sphere.center, sphere.radius)) {
+                if (!room.holds(sphere.center, radius) || grid.overlaps(sphere)) {
                     if (++in_vain > most_places + 10 * count) return spheres;
                     continue;
                 }
@@ -136,22 +205,21 @@ std::vector<PackedSphere> lattice_packing(const Region& region, const Mixture& m
     return spheres;
 }
 
-std::vector<PackedSphere> random_packing(const Region& region, const Mixture& mixture, std::int64_t count,
-    const std::vector<PackedSphere>& others, const Model& model, Random& random)
+std::vector<PackedSphere> random_packing(const PackingRoom& room, const Mixture& mixture, std::int64_t count,
+    const std::vector<PackedSphere>& others, Random& random)
 {
     auto grid = grid_of(others, mixture);
-    const auto walls = place_walls_at_start(model);
     std::vector<PackedSphere> spheres;
     while (static_cast<std::int64_t>(spheres.size()) < count) {
         const Grain grain = mixture.draw(random);
         const double radius = 0.5 * grain.diameter;
         bool placed = false;
         for (int k = 0; k < tries && !placed; ++k) {
-            const PackedSphere sphere{region.random_point(random, radius), radius, grain.material};
-            placed = !grid.overlaps(sphere) && !touches_wall(walls, sphere.center, sphere.radius);
+            const auto center = room.region().random_point(random, radius);
+            placed = center && !grid.overlaps({*center, radius}) && room.holds(*center, radius);
             if (!placed) continue;
-            grid.add(sphere);
-            spheres.push_back(sphere);
+            grid.add({*center, radius, grain.material});
+            spheres.push_back({*center, radius, grain.material});
         }
         if (!placed) break;
     }

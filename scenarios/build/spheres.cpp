@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/build/spheres.hpp"
 
-#include "core/sensors/region_share.hpp"
 #include "scenarios/build/checks.hpp"
 #include "scenarios/build/materials.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace talus
@@ -135,7 +135,7 @@ std::int64_t count_of(const Fill& fill, const Materials& materials)
         throw SceneError(fill.key + ".count", "give 'count', 'mass' or 'filling', only one of them");
     double count = static_cast<double>(table.count);
     if (table.mass > 0.0) count = table.mass / fill.mixture.mean_mass(materials);
-    if (table.filling > 0.0) count = table.filling * volume(fill.region) / fill.mixture.mean_volume();
+    if (table.filling > 0.0) count = table.filling * fill.region.volume() / fill.mixture.mean_volume();
     constexpr double most = 1e8; // as for a count
     if (!(count <= most)) throw SceneError(fill.key + ".mass", "these are more than 100 million spheres");
     return std::llround(count);
@@ -180,21 +180,37 @@ void require_inside(const Box& world, const Region& region, double diameter, con
         throw SceneError(key, "the region reaches out of the world; see [world] min and max");
 }
 
-/// The spheres of a lattice or of a random packing. @param placed those of earlier fills
+/// No packing of spheres fills more at random (0.64), and not every one comes so far.
+void require_loose_enough(const Fill& fill)
+{
+    constexpr double densest = 0.62;
+    const double share = static_cast<double>(fill.count) * fill.mixture.mean_volume() / fill.region.volume();
+    if (!(share > densest)) return;
+    char text[100];
+    std::snprintf(
+        text, sizeof text, "these spheres would fill %.2f of its region; a dense fill takes up to 0.6 of it", share);
+    throw SceneError(fill.key + ".region", text);
+}
+
+/// The spheres of a packing. @param placed those of earlier fills
 std::vector<PackedSphere> packed_spheres(
     const Fill& fill, const Model& model, const std::vector<PackedSphere>& placed, Random& random)
 {
-    const std::int64_t count = fill.count;
-    const bool lattice = fill.table.arrangement == "lattice";
-    auto spheres = lattice
-                       ? lattice_packing(fill.region, fill.mixture, count, fill.table.spacing, placed, model, random)
-                       : random_packing(fill.region, fill.mixture, count, placed, model, random);
-    if (static_cast<std::int64_t>(spheres.size()) < count)
+    const std::string& arrangement = fill.table.arrangement;
+    if (arrangement == "dense") require_loose_enough(fill);
+    const PackingRoom room(fill.region, fill.except, model);
+    const auto spheres = arrangement == "lattice"
+                             ? lattice_packing(room, fill.mixture, fill.count, fill.table.spacing, placed, random)
+                         : arrangement == "random" ? random_packing(room, fill.mixture, fill.count, placed, random)
+                                                   : dense_packing(room, fill.mixture, fill.count, placed, random);
+    if (static_cast<std::int64_t>(spheres.size()) < fill.count)
         throw SceneError(fill.key + ".region",
             "the region holds " + std::to_string(spheres.size()) +
-                " spheres of this size clear of walls and earlier fills, not " + std::to_string(count) +
-                (lattice ? "; make it larger, or lower their number or 'spacing'"
-                         : "; make it larger, lower their number, or use arrangement \"lattice\""));
+                " spheres of this size clear of walls and earlier fills, not " + std::to_string(fill.count) +
+                (arrangement == "lattice"     ? "; make it larger, lower their number or 'spacing', or use arrangement "
+                                                "\"dense\""
+                    : arrangement == "random" ? "; make it larger, lower their number, or use arrangement \"dense\""
+                                              : "; make it larger, or lower their number"));
     return spheres;
 }
 
@@ -229,6 +245,8 @@ std::vector<Fill> build_fills(const scene::Scene& scene, const Materials& materi
         } else {
             fill.mixture = build_mixture(fill.table, fill.key, materials);
             fill.region = require_region(fill.table.region, fill.key + ".region");
+            for (std::size_t i = 0; i < fill.table.except.size(); ++i)
+                fill.except.push_back(require_region(fill.table.except[i], table_path(fill.key + ".except", i)));
             fill.count = count_of(fill, materials);
         }
         fills.push_back(std::move(fill));

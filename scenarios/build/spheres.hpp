@@ -14,6 +14,7 @@ struct Fill {
     const scene::FillTable& table;    ///< what is taken as it is: arrangement, spacing, velocities
     Mixture mixture;                  ///< what a packing is made of; that of a file has no species
     Region region;                    ///< where a packing is to be; of a list: none
+    std::vector<Region> except = {};  ///< where nothing of it is to be
     std::int64_t count = 0;           ///< of a packing
     std::vector<PackedSphere> listed; ///< the spheres of a file, in its order, or a single one
 

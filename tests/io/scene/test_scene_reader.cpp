@@ -108,7 +108,8 @@ TEST_CASE("an unknown name of a choice is refused with the names and the nearest
 TEST_CASE("a key that must be there is asked for by name and meaning", "[scene_reader]")
 {
     CHECK(refusal_of("[[fill]]\ncount = 3\n") ==
-          "scene.toml:1:1: [[fill]] needs the key 'region' (where; spheres lie wholly inside)");
+          "scene.toml:1:1: [[fill]] needs the key 'region' (where; spheres lie wholly inside, and on the side of "
+          "closed walls where more of it lies)");
     CHECK(refusal_of("[[sensor]]\nname = 's'\n") == "scene.toml:1:1: [[sensor]] needs the key 'kind'");
 }
 
@@ -121,7 +122,8 @@ TEST_CASE("a key of another shape is refused with the shapes that have it and th
         refusal_of("[[wall]]\nname = 'w'\nmaterial = 'a'\nradius = 1\n")
             .starts_with("scene.toml:4:1: key 'radius' in [[wall]] goes with shape 'cylinder' or 'disk', not 'mesh'"));
     CHECK(refusal_of("[[outlet]]\nregion = { max = [1, 1, 1], radius = 1 }\n") ==
-          "scene.toml:2:29: key 'radius' in [region] goes with shape 'cylinder', not 'box', whose keys are 'shape', "
+          "scene.toml:2:29: key 'radius' in [region] goes with shape 'cylinder' or 'sphere', not 'box', whose keys are "
+          "'shape', "
           "'min' and 'max'");
     CHECK(refusal_of("[[fill]]\nmaterial = 'a'\ncount = 1\ndiameter = { value = 1, max = 2 }\n") ==
           "scene.toml:4:25: key 'max' in [diameter] goes with distribution 'uniform', 'normal' or 'lognormal', not "
@@ -155,13 +157,15 @@ TEST_CASE("names have no control characters", "[scene_reader]")
 TEST_CASE("a key of one kind of table is asked for there, and refused in the others", "[scene_reader]")
 {
     CHECK(refusal_of("[[fill]]\nmaterial = 'a'\ncount = 1\n") ==
-          "scene.toml:1:1: [[fill]] needs the key 'region' (where; spheres lie wholly inside)");
+          "scene.toml:1:1: [[fill]] needs the key 'region' (where; spheres lie wholly inside, and on the side of "
+          "closed walls where more of it lies)");
     CHECK(
         refusal_of("[[fill]]\nmaterial = 'a'\narrangement = 'file'\n") ==
         "scene.toml:1:1: [[fill]] needs the key 'file' (a .vtp, .vtu or .csv file of spheres, beside the scene file)");
     CHECK(refusal_of("[[fill]]\narrangement = 'file'\nfile = 'a.csv'\nregion = { max = [1, 1, 1] }\n")
-              .starts_with("scene.toml:4:1: key 'region' in [[fill]] goes with arrangement 'lattice' or 'random', not "
-                           "'file', whose keys are "));
+              .starts_with(
+                  "scene.toml:4:1: key 'region' in [[fill]] goes with arrangement 'lattice', 'random' or 'dense', "
+                  "not 'file', whose keys are "));
     CHECK(refusal_of("[[fill]]\narrangement = 'file'\nfile = 'a.csv'\nspecies = []\n")
               .starts_with("scene.toml:4:1: key 'species' in [[fill]] goes with arrangement"));
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/world/closed_mesh.hpp"
 #include "scenarios/build/build_scene.hpp"
 #include "scenarios/build/meshes.hpp"
 #include "tests/scenarios/small_scene.hpp"

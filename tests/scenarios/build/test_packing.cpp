@@ -43,8 +43,10 @@ std::vector<PackedSphere> pack(const std::string& arrangement, const Region& reg
     const Model& model, std::uint64_t seed = 1, const std::vector<PackedSphere>& others = {})
 {
     Random random(seed);
-    return arrangement == "lattice" ? lattice_packing(region, grains, count, 1.1, others, model, random)
-                                    : random_packing(region, grains, count, others, model, random);
+    const PackingRoom room(region, {}, model);
+    if (arrangement == "dense") return dense_packing(room, grains, count, others, random);
+    return arrangement == "lattice" ? lattice_packing(room, grains, count, 1.1, others, random)
+                                    : random_packing(room, grains, count, others, random);
 }
 
 /// Least gap between any two of the spheres.
@@ -61,7 +63,7 @@ double least_gap(const std::vector<PackedSphere>& spheres)
 
 TEST_CASE("packed spheres lie in their region, clear of each other and of the walls", "[packing]")
 {
-    const auto arrangement = GENERATE(as<std::string>{}, "lattice", "random");
+    const auto arrangement = GENERATE(as<std::string>{}, "lattice", "random", "dense");
     const auto region = GENERATE(box_of(0.06), tilted_cylinder());
     const auto model = GENERATE(Model{}, with_cone());
     const auto seed = GENERATE(1u, 2u, 3u);
@@ -79,7 +81,7 @@ TEST_CASE("packed spheres lie in their region, clear of each other and of the wa
 
 TEST_CASE("a packing follows from its seed", "[packing]")
 {
-    const auto arrangement = GENERATE(as<std::string>{}, "lattice", "random");
+    const auto arrangement = GENERATE(as<std::string>{}, "lattice", "random", "dense");
     const auto first = pack(arrangement, box_of(0.06), 30, Model{}, 7);
     const auto again = pack(arrangement, box_of(0.06), 30, Model{}, 7);
     const auto other = pack(arrangement, box_of(0.06), 30, Model{}, 8);
@@ -96,7 +98,7 @@ TEST_CASE("a packing follows from its seed", "[packing]")
 
 TEST_CASE("a full region holds fewer spheres than asked for", "[packing]")
 {
-    const auto arrangement = GENERATE(as<std::string>{}, "lattice", "random");
+    const auto arrangement = GENERATE(as<std::string>{}, "lattice", "random", "dense");
     const auto spheres = pack(arrangement, box_of(0.045), 200, Model{});
     // No packing of these spheres fills more than 64 % of the box, which is 155 of the mean size; three in a row, four
     // layers high, always find room.
@@ -116,7 +118,7 @@ TEST_CASE("a lattice is filled from below, whatever the direction of gravity", "
 
 TEST_CASE("spheres keep clear of those that are already there", "[packing]")
 {
-    const auto arrangement = GENERATE(as<std::string>{}, "lattice", "random");
+    const auto arrangement = GENERATE(as<std::string>{}, "lattice", "random", "dense");
     auto all = pack("random", box_of(0.06), 20, Model{}, 2);
     const auto others = all;
     const auto spheres = pack(arrangement, box_of(0.06), 10, Model{}, 1, others);

@@ -58,7 +58,7 @@ std::function<void(S&)> add_sensor(const std::string& kind, std::function<void(s
 {
     return [=](S& s) {
         auto& table = s.sensor.emplace_back(sensor("a", kind));
-        table.region = s.fill[0].region;
+        static_cast<scene::RegionTable&>(table.region) = s.fill[0].region;
         table.direction = "z";
         set(table);
     };

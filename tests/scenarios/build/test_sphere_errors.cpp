@@ -27,17 +27,15 @@ const std::vector<Mistake> of_spheres = {
          s.fill[0].region.max = Vec3(0.019, 0.019, 0.019);
      },
         "fill[0].region",
-        "the region holds 1 spheres of this size clear of walls and earlier fills, not 20; make it larger, or lower "
-        "their number or "
-        "'spacing'"},
+        "the region holds 1 spheres of this size clear of walls and earlier fills, not 20; make it larger, lower "
+        "their number or 'spacing', or use arrangement \"dense\""},
     {[](S& s) {
          s.fill[0].arrangement = "random";
          s.fill[0].region.max = Vec3(0.0101, 0.0101, 0.0101);
      },
         "fill[0].region",
         "the region holds 1 spheres of this size clear of walls and earlier fills, not 20; make it larger, lower "
-        "their number, or use "
-        "arrangement \"lattice\""},
+        "their number, or use arrangement \"dense\""},
     {[](S& s) {
          s.fill[0].count = 1;
          s.fill[0].spacing = 1.0;
@@ -45,8 +43,8 @@ const std::vector<Mistake> of_spheres = {
          s.fill.push_back(s.fill[0]);
      },
         "fill[1].region",
-        "the region holds 0 spheres of this size clear of walls and earlier fills, not 1; make it larger, or lower "
-        "their number or 'spacing'"},
+        "the region holds 0 spheres of this size clear of walls and earlier fills, not 1; make it larger, lower "
+        "their number or 'spacing', or use arrangement \"dense\""},
     {[](S& s) { s.fill[0].region.max.x() = 1100.0; }, "fill[0].region",
         "the region is more than 100 000 spheres across"},
     {[](S& s) { s.world.max.x() = 0.04; }, "fill[0].region",
