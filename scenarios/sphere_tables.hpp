@@ -53,7 +53,7 @@ struct RegionTable {
     double scale = 1.0;
     Vec3 translate = Vec3::Zero();
 
-    std::vector<Vec3> vertices = {};                    ///< of the mesh, filled in by io, scaled and translated
+    std::vector<Vec3> vertices = {};                         ///< of the mesh, filled in by io, scaled and translated
     std::vector<std::array<std::int32_t, 3>> triangles = {}; ///< of the mesh, filled in by io
 
     static void describe(auto& self, auto&& key) { describe(self, key, {"box", "cylinder", "cone", "sphere", "mesh"}); }
