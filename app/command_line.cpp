@@ -183,8 +183,11 @@ void add_method_options(CLI::App& verb, SolveRequest& solve)
             {"shuffled", Order::shuffled}},
         "In which order a sweep goes through the contacts [natural]");
     verb.add_option("--seed", solve.settings.seed, "Seed of shuffled orders [1]")->type_name("N")->check(from_zero_up);
-    verb.add_option("--omega", solve.settings.omega, "Relaxation, above 0 and below 2 [1]")
-        ->type_name("W")
+    verb.add_option("--omega", solve.settings.omega,
+            "Relaxation, above 0 and below 2; as a list, of each sweep, the last of all that follow [1]")
+        ->type_name("W[,W...]")
+        ->delimiter(',')
+        ->allow_extra_args(false)
         ->check(CLI::Validator(
             [](std::string& text) {
                 double value = 0.0;

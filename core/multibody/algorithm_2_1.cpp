@@ -26,10 +26,10 @@ IterationReport solve_with_residual_update(Iterate& x, const SolveSettings& sett
     const auto constraints_of = constraints_by_body(p);
     Eigen::VectorXd r = residual(x), z;
 
-    const auto sweep = [&](const std::vector<std::size_t>& sequence) {
+    const auto sweep = [&](const std::vector<std::size_t>& sequence, double omega) {
         SweepSums sums;
         for (const std::size_t k : sequence) {
-            z = -settings.omega * (D.local(p.constraints()[k], k).inverse * p.rows_of(k, r));
+            z = -omega * (D.local(p.constraints()[k], k).inverse * p.rows_of(k, r));
             p.rows_of(k, r) += p.rows_of(k, p.compliance()).cwiseProduct(z);
             for (std::size_t i = p.first_block(k); i < p.first_block(k + 1); ++i) {
                 const Eigen::VectorXd d_b = p.response(i) * z;

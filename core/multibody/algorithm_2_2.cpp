@@ -17,7 +17,6 @@ LocalResidualReport solve_with_local_residual(Iterate& x, const SolveSettings& s
 {
     const Problem& p = x.problem();
     const DiagonalBlocks D(x, LocalSolve::block);
-    const double omega = settings.omega;
     Eigen::VectorXd r, z;
     const auto local_residual = [&](std::size_t k) {
         r.resize(p.constraints()[k].rows);
@@ -28,7 +27,7 @@ LocalResidualReport solve_with_local_residual(Iterate& x, const SolveSettings& s
     RunningError running;
     for (std::size_t k = 0; k < p.constraints().size(); ++k) running.of_note += local_residual(k);
 
-    const auto sweep = [&](const std::vector<std::size_t>& sequence) {
+    const auto sweep = [&](const std::vector<std::size_t>& sequence, double omega) {
         SweepSums sums;
         running.energy_drop_before = std::exchange(running.energy_drop, 0.0);
         for (const std::size_t k : sequence) {

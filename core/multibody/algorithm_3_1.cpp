@@ -5,13 +5,13 @@ namespace talus::multibody
 {
 
 template <class AnyIterate>
-ProjectedGaussSeidel<AnyIterate>::ProjectedGaussSeidel(const AnyIterate& x, LocalSolve local, double omega)
-    : blocks_(x, local), local_(local), omega_(omega)
+ProjectedGaussSeidel<AnyIterate>::ProjectedGaussSeidel(const AnyIterate& x, LocalSolve local)
+    : blocks_(x, local), local_(local)
 {
 }
 
 template <class AnyIterate>
-SweepSums ProjectedGaussSeidel<AnyIterate>::sweep(AnyIterate& x, const std::vector<std::size_t>& sequence)
+SweepSums ProjectedGaussSeidel<AnyIterate>::sweep(AnyIterate& x, const std::vector<std::size_t>& sequence, double omega)
 {
     SweepSums sums;
     for (const std::size_t k : sequence) {
@@ -20,11 +20,7 @@ SweepSums ProjectedGaussSeidel<AnyIterate>::sweep(AnyIterate& x, const std::vect
         y_.resize(constraint.rows);
         x.residual_of(k, y_);
         z_ = impulse;
-        solve_locally(local_, blocks_.local(constraint, k), y_, z_);
-        if (omega_ != 1.0) {
-            z_ = impulse + omega_ * (z_ - impulse);
-            project(constraint, z_);
-        }
+        solve_locally(local_, blocks_.local(constraint, k, omega), y_, z_);
         const auto weight = blocks_.weight().segment(constraint.first_row, constraint.rows);
         sums.size += weight.dot(z_.cwiseAbs2());
         z_ -= impulse; // Δλ_k of (17)
@@ -37,10 +33,10 @@ SweepSums ProjectedGaussSeidel<AnyIterate>::sweep(AnyIterate& x, const std::vect
 template <class AnyIterate>
 IterationReport solve_projected(AnyIterate& x, const SolveSettings& settings, const SweepObserver& observer)
 {
-    ProjectedGaussSeidel<AnyIterate> algorithm(x, settings.local, settings.omega);
+    ProjectedGaussSeidel<AnyIterate> algorithm(x, settings.local);
     return repeat_until_small(
         settings, x.constraints().size(), algorithm.measure(AnyIterate(x.problem())),
-        [&](const std::vector<std::size_t>& sequence) { return algorithm.sweep(x, sequence); },
+        [&](const std::vector<std::size_t>& sequence, double omega) { return algorithm.sweep(x, sequence, omega); },
         [&] { return algorithm.measure(x); }, observer);
 }
 

@@ -14,11 +14,12 @@ namespace talus::multibody
 template <class AnyIterate> class ProjectedGaussSeidel
 {
 public:
-    /// @param x an iterate of the problem that will be swept; @param omega relaxation
-    ProjectedGaussSeidel(const AnyIterate& x, LocalSolve local, double omega = 1.0);
+    /// @param x an iterate of the problem that will be swept
+    ProjectedGaussSeidel(const AnyIterate& x, LocalSolve local);
 
     /// One sweep over these constraints, in this order. Returns Σ W|Δλ|² and Σ W|λ|² of what it did.
-    SweepSums sweep(AnyIterate& x, const std::vector<std::size_t>& sequence);
+    /// @param omega relaxation, the note's factor on d
+    SweepSums sweep(AnyIterate& x, const std::vector<std::size_t>& sequence, double omega = 1.0);
 
     /// The sums of ε, of an x that is not changed.
     SweepSums measure(const AnyIterate& x) const { return natural_map_sums(x, blocks_); }
@@ -26,7 +27,6 @@ public:
 private:
     DiagonalBlocks blocks_;
     LocalSolve local_;
-    double omega_;
     Eigen::VectorXd y_, z_;
 };
 

@@ -16,8 +16,11 @@ public:
     /// inverse
     template <class AnyIterate> DiagonalBlocks(const AnyIterate& iterate, LocalSolve how);
 
-    /// The problem of constraint k. @param constraint the same one
-    LocalProblem local(const Constraint& constraint, std::size_t k) const { return {constraint, D_[k], inverse_[k]}; }
+    /// The problem of constraint k. @param constraint the same one; @param omega relaxation
+    LocalProblem local(const Constraint& constraint, std::size_t k, double omega = 1.0) const
+    {
+        return {constraint, D_[k], inverse_[k], omega};
+    }
 
     /// By row, what turns an impulse into the velocity that it makes in its own row [1/kg; rolling rows 1/(kg m²)]:
     /// d_ii, for the two rows of a disk their mean, for it does not depend on the tangents chosen.

@@ -4,8 +4,10 @@
 #include "core/multibody/error_measures.hpp"
 #include "core/multibody/traversal.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 namespace talus::multibody
 {
@@ -14,10 +16,14 @@ namespace talus::multibody
 struct SolveSettings {
     double tolerance = 1e-4; ///< on ε
     int max_sweeps = 10000;
-    double omega = 1.0; ///< relaxation: 0 < ω < 2; 1 is Gauss–Seidel
+    /// Relaxation of each sweep, the last one of all that follow: 0 < ω < 2; 1 is Gauss–Seidel.
+    std::vector<double> omega = {1.0};
     Order order = Order::natural;
     std::uint64_t seed = 1; ///< of shuffled orders
     LocalSolve local = LocalSolve::sequential;
+
+    /// @param sweep from 0 on
+    double omega_of(int sweep) const { return omega[std::min(static_cast<std::size_t>(sweep), omega.size() - 1)]; }
 };
 
 /// How a solve went.
@@ -39,8 +45,8 @@ inline constexpr double most_left_of_start = 0.1;
 
 /// "repeat … until error is small, or iteration time is exceeded", lines 5 and 16–23 of the note's algorithms.
 /// @param at_rest the sums of ε at λ = 0
-/// @param sweep changes the iterate in the order given and returns the sums of its changes; @param measure returns the
-/// sums of ε and changes nothing: it has the last word where the changes are small
+/// @param sweep changes the iterate in the order given, relaxed by ω, and returns the sums of its changes; @param
+/// measure returns the sums of ε and changes nothing: it has the last word where the changes are small
 template <class Sweep, class Measure>
 IterationReport repeat_until_small(const SolveSettings& settings, std::size_t constraints, const SweepSums& at_rest,
     Sweep&& sweep, Measure&& measure, const SweepObserver& observer)
@@ -57,7 +63,9 @@ IterationReport repeat_until_small(const SolveSettings& settings, std::size_t co
     };
     judge(measure());
     while (!report.converged && report.sweeps < settings.max_sweeps && report.finite) {
-        const SweepSums swept = sweep(traversal.next());
+        const double omega = settings.omega_of(report.sweeps);
+        SweepSums swept = sweep(traversal.next(), omega);
+        swept.change /= omega * omega; // what the constraints asked for
         ++report.sweeps;
         if (observer) observer(report.sweeps);
         report.finite = std::isfinite(swept.change);

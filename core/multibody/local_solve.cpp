@@ -36,7 +36,7 @@ template <class Visit> void for_each_disk(const Constraint& contact, Visit&& vis
 void solve_row(const LocalProblem& local, Index i, double least, LocalVector y, LocalVector z)
 {
     if (local.D(i, i) <= 0.0) return; // nothing moves: both bodies are fixed
-    const double solved = std::max(least, z[i] - y[i] / local.D(i, i));
+    const double solved = std::max(least, z[i] - local.omega * y[i] / local.D(i, i));
     y += local.D.col(i) * (solved - z[i]);
     z[i] = solved;
 }
@@ -44,7 +44,7 @@ void solve_row(const LocalProblem& local, Index i, double least, LocalVector y, 
 /// One disk of a contact, and what that changes in all rows.
 void solve_disk(const LocalProblem& local, const DiskRows& rows, LocalVector y, LocalVector z)
 {
-    const Eigen::Matrix2d D = local.D.block<disk_size, disk_size>(rows.first, rows.first);
+    const Eigen::Matrix2d D = local.D.block<disk_size, disk_size>(rows.first, rows.first) / local.omega;
     if (D.trace() <= 0.0) return;
     const Vector2d old = z.segment<disk_size>(rows.first);
     const Vector2d b = y.segment<disk_size>(rows.first) - D * old;
@@ -86,19 +86,20 @@ SlidingDirection sliding_direction(const Constraint& contact, const LocalVector&
 
 void solve_by_block(const LocalProblem& local, LocalVector y, LocalVector z)
 {
-    z -= local.inverse.lazyProduct(y);
+    z -= local.omega * local.inverse.lazyProduct(y);
     project(local.constraint, z);
 }
 
 void solve_along_sliding(const LocalProblem& local, LocalVector y, LocalVector z)
 {
     if (local.constraint.law != Law::contact) return solve_by_block(local, y, z);
-    const double b = y[0] - local.D.row(0).dot(z); // r₁ − (D λ)₁ of (20)
-    z -= local.inverse.lazyProduct(y);
+    const auto D = local.D.row(0) / local.omega;
+    const double b = y[0] - D.dot(z); // r₁ − (D λ)₁ of (20)
+    z -= local.omega * local.inverse.lazyProduct(y);
     const auto sliding = sliding_direction(local.constraint, z);
-    const double denominator = local.D.row(0).dot(sliding.direction);
+    const double denominator = D.dot(sliding.direction);
     if (sliding.slides && denominator > 0.0) {
-        const double normal = -(b + local.D.row(0).dot(sliding.stuck)) / denominator;
+        const double normal = -(b + D.dot(sliding.stuck)) / denominator;
         z = std::max(0.0, normal) * sliding.direction + sliding.stuck;
     }
     project(local.constraint, z);
@@ -114,7 +115,7 @@ void solve_in_sequence(const LocalProblem& local, LocalVector y, LocalVector z)
 {
     switch (local.constraint.law) {
     case Law::equality:
-        z -= local.inverse.lazyProduct(y);
+        z -= local.omega * local.inverse.lazyProduct(y);
         return;
     case Law::unilateral:
         return solve_by_row(local, y, z);

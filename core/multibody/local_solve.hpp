@@ -15,6 +15,7 @@ struct LocalProblem {
     const Constraint& constraint;
     BlockStore::View D;       ///< D_kk
     BlockStore::View inverse; ///< D_kk⁻¹; the pseudo-inverse where D_kk is singular
+    double omega = 1.0;       ///< relaxation: each part goes as far as if its D were D/ω, the note's factor on d
 };
 
 /// What all local solves take: `z` holds λ_k on entry and the new impulse on return; `y` holds y_k on entry and is used

@@ -101,6 +101,18 @@ double apply_warm_start(
     return sums.total(unrelaxed).size + pistons.warm_start(motion.data());
 }
 
+double relaxation_of(int sweep, const ModelledPhysics& physics, const SolverSettings& solver)
+{
+    // What a correction of the pressures leaves are short waves: with relaxed sweeps after it a load on one of two
+    // columns took two to six times as many (hard case 35). Without friction a bed has soft modes, and N_min plain
+    // sweeps change its forces too late for them: they swing for ever, below the tolerance. So all but the last of the
+    // N_min are relaxed there; the last is plain, for it solves what is alone, such as an impact of two.
+    if (solver.pressure_scaling) return unrelaxed;
+    const bool has_soft_modes = !physics.friction && solver.stabilisation == Stabilisation::matched;
+    const bool relaxed = sweep >= solver.min_sweeps || (has_soft_modes && sweep + 1 < solver.min_sweeps);
+    return relaxed ? solver.relaxation : unrelaxed;
+}
+
 double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
     const ModelledPhysics& physics, double warm_size)
 {
@@ -121,15 +133,6 @@ SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::v
     // Two sets of partial sums in turn: a slow thread may still read one sweep's while a fast one writes the next.
     std::array<PartialSums, 2> swept{PartialSums(tiles), PartialSums(tiles)};
     PartialSums measured(tiles);
-    // What a correction of the pressures leaves are short waves: with relaxed sweeps after it a load on one of two
-    // columns took two to six times as many (hard case 35). Without friction a bed has soft modes, and N_min plain
-    // sweeps change its forces too late for them: they swing for ever, below the tolerance. So all but the last of the
-    // N_min are relaxed there; the last is plain, for it solves what is alone, such as an impact of two.
-    const bool has_soft_modes = !physics.friction && solver.stabilisation == Stabilisation::matched;
-    const auto is_relaxed = [&](int sweep) {
-        if (solver.pressure_scaling) return false;
-        return sweep >= solver.min_sweeps || (has_soft_modes && sweep + 1 < solver.min_sweeps);
-    };
     SolveReport report;
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
         // Every thread goes through the same loop with the same numbers.
@@ -137,7 +140,7 @@ SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::v
         double change = infinity, error = infinity;
         while (error > solver.tolerance && sweeps < solver.max_sweeps) {
             auto& sums = swept[static_cast<std::size_t>(sweeps % 2)];
-            const double relaxation = is_relaxed(sweeps) ? solver.relaxation : unrelaxed;
+            const double relaxation = relaxation_of(sweeps, physics, solver);
             sweep(crew, passes, pistons, motion, relaxation, sums);
             ++sweeps;
             // ε after a sweep is about what the next one would ask for: as much less as this one asked for less than

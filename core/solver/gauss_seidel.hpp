@@ -23,6 +23,10 @@ struct SolveReport {
 double apply_warm_start(
     ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion, const ModelledPhysics& physics);
 
+/// ω of a sweep of a step, METHOD (6): of its contacts, but for those with pistons.
+/// @param sweep from 0 on
+double relaxation_of(int sweep, const ModelledPhysics& physics, const SolverSettings& solver);
+
 /// So many sweeps of projected Gauss–Seidel, as below, whatever the residual. Returns ε of the changes of
 /// the last; without one, infinity.
 double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,

@@ -3,6 +3,9 @@
 
 #include "core/solver/step_parts.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace talus
 {
 namespace
@@ -19,8 +22,16 @@ public:
     Statement(const State& state, const Model& model)
         : state_(state), model_(model), rows_(rows_of_contact(model.physics))
     {
-        for (const Motion& motion : state.motion)
-            add_sphere_body(stated_.problem, motion, model.physics.spin, model.time_step * model.gravity);
+        auto& order = stated_.sphere_of_body;
+        order.resize(state.count());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::sort(order, {}, [&](std::size_t sphere) { return state.id[sphere]; });
+        body_of_sphere_.resize(state.count());
+        for (std::size_t body = 0; body < order.size(); ++body) {
+            body_of_sphere_[order[body]] = body;
+            add_sphere_body(
+                stated_.problem, state.motion[order[body]], model.physics.spin, model.time_step * model.gravity);
+        }
         for (std::size_t k = 0; k < model.pistons.size(); ++k)
             add_piston_body(
                 stated_.problem, model.pistons[k], state.pistons[k], model.gravity, model.time_step, state.time);
@@ -28,20 +39,20 @@ public:
 
     void add_sphere_contact(const TileContacts& contacts, std::size_t k)
     {
-        add_contact(contacts, k, [&](const Eigen::Matrix3d& basis) {
+        add_contact(contacts, k, false, [&](const Eigen::Matrix3d& basis) {
             return BodyRows{
-                static_cast<std::size_t>(contacts.b(k)), sphere_rows(basis, rows_, state_.motion[contacts.b(k)],
-                                                             model_.physics.spin, -1.0, contacts.terms(k).arm_scale)};
+                body_of_sphere_[contacts.b(k)], sphere_rows(basis, rows_, state_.motion[contacts.b(k)],
+                                                    model_.physics.spin, -1.0, contacts.terms(k).arm_scale)};
         });
     }
 
-    void add_wall_contact(const TileContacts& contacts, std::size_t k) { add_contact(contacts, k, nullptr); }
+    void add_wall_contact(const TileContacts& contacts, std::size_t k) { add_contact(contacts, k, true, nullptr); }
 
     /// @param arm from the piston's centre [m]
     void add_piston_contact(const TileContacts& contacts, std::size_t k, const Vec3& arm)
     {
         const auto piston = static_cast<std::size_t>(model_.walls[contacts.b(k)].piston);
-        add_contact(contacts, k, [&](const Eigen::Matrix3d& basis) {
+        add_contact(contacts, k, true, [&](const Eigen::Matrix3d& basis) {
             return BodyRows{state_.count() + piston, piston_rows(basis, rows_, arm)};
         });
     }
@@ -67,18 +78,22 @@ private:
     Index rows_; ///< of a contact
     StepProblem stated_;
     std::vector<double> warm_;
+    std::vector<std::size_t> body_of_sphere_;
 
     /// @param rows_of_other returns what body b contributes; null at a wall
     template <class RowsOfOther>
-    void add_contact(const TileContacts& contacts, std::size_t k, RowsOfOther&& rows_of_other)
+    void add_contact(const TileContacts& contacts, std::size_t k, bool with_wall, RowsOfOther&& rows_of_other)
     {
         const Contact c = contacts.contact(k);
         const Eigen::Matrix3d basis = contact_basis(c.normal);
-        std::vector<BodyRows> bodies = {{static_cast<std::size_t>(c.a),
+        std::vector<BodyRows> bodies = {{body_of_sphere_[c.a],
             sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, contacts.terms(k).arm_scale)}};
         if constexpr (!std::is_null_pointer_v<std::decay_t<RowsOfOther>>) bodies.push_back(rows_of_other(basis));
         talus::add_contact(stated_.problem, contacts, k, basis, rows_, bodies);
         append_warm(impulse_in_rows(contacts, k, basis, rows_));
+        const ContactGeometry& at = contacts.geometry[k];
+        const Vec3 point = state_.position[c.a] - (state_.radius(c.a) + 0.5 * at.gap) * c.normal;
+        stated_.contacts.push_back({c.a, c.b, with_wall, at.gap, at.kind, point});
     }
 
     void append_warm(const VectorXd& impulse) { warm_.insert(warm_.end(), impulse.begin(), impulse.end()); }

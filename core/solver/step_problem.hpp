@@ -6,16 +6,29 @@
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
 
+#include <vector>
+
 namespace talus
 {
 
+/// What the problem of a step does not say of a contact.
+struct ContactOrigin {
+    std::int32_t a = 0, b = 0; ///< indices of the sphere, and of the other sphere or the wall
+    bool with_wall = false;
+    double gap = 0.0; ///< [m]; < 0: overlap
+    ContactKind kind = ContactKind::resting;
+    Vec3 point = Vec3::Zero(); ///< where it acts, halfway across the gap [m]
+};
+
 /// The problem of one step in the words of the note.
 ///
-/// Body i is sphere i with v and, where spheres turn, a = r ω; pistons follow. The constraints come in the order of a
-/// sweep: contacts, those with pistons last, and then the guides of pistons.
+/// The bodies are the spheres in the order of their ids with v and, where spheres turn, a = r ω; pistons follow. The
+/// constraints come in the order of a sweep: contacts, those with pistons last, and then the guides of pistons.
 struct StepProblem {
     multibody::Problem problem;
-    Eigen::VectorXd warm_impulse; ///< λ⁰, carried over from the step before [N s; rolling rows N m s]
+    Eigen::VectorXd warm_impulse;            ///< λ⁰, carried over from the step before [N s; rolling rows N m s]
+    std::vector<std::size_t> sphere_of_body; ///< index of the sphere that a body is, without pistons
+    std::vector<ContactOrigin> contacts;     ///< in the order of the constraints
 };
 
 /// States the problem that a step is about to solve. The rows of a contact are its normal n (from b to a), two

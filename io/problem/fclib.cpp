@@ -278,6 +278,17 @@ void write_guesses(Hdf5Writer& file, const FclibProblem& problem)
     }
 }
 
+void read_origin(const Hdf5Reader& file, FclibProblem& problem)
+{
+    for (const std::string list : origin_lists)
+        if (file.has("/talus/" + list)) transfer(file, "/talus/" + list, problem.origin[list]);
+}
+
+void write_origin(Hdf5Writer& file, const FclibProblem& problem)
+{
+    for (const auto& [list, numbers] : problem.origin) transfer(file, "/talus/" + list, numbers);
+}
+
 } // namespace
 
 FclibProblem read_fclib(const std::filesystem::path& path)
@@ -293,6 +304,7 @@ FclibProblem read_fclib(const std::filesystem::path& path)
     if (problem.G.cols() == 0) problem.G.resize(problem.f.size(), 0);
     problem.guesses = read_guesses(file, problem);
     transfer_guess(file, "/solution", problem.solution, problem);
+    read_origin(file, problem);
     return problem;
 }
 
@@ -303,6 +315,7 @@ void write_fclib(const FclibProblem& problem, const std::filesystem::path& path)
     transfer_problem(file, problem);
     write_guesses(file, problem);
     transfer_guess(file, "/solution", problem.solution, problem);
+    write_origin(file, problem);
     write_atomically(path, file.bytes());
 }
 

@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <array>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -58,9 +60,18 @@ struct FclibProblem {
     std::vector<FclibGuess> guesses;
     FclibGuess solution;
 
+    /// Lists that FCLIB does not know, in the file's group "talus", of which other tools take no notice: where the
+    /// bodies and contacts of a problem come from. Their names: `origin_lists`.
+    std::map<std::string, Eigen::VectorXd> origin;
+
     Eigen::Index contacts() const { return mu.size(); }                         ///< N
     Eigen::Index contact_rows() const { return rows_per_contact * contacts(); } ///< D N
 };
+
+/// Of spheres: id, radius [m], position [m], three for each. Of contacts: id_a, id_b (at a wall −1), wall (−1 between
+/// spheres), gap [m], kind (0 resting, 1 open, 2 impact), point [m], three for each.
+inline constexpr std::array origin_lists = {"bodies/id", "bodies/radius", "bodies/position", "contacts/id_a",
+    "contacts/id_b", "contacts/wall", "contacts/gap", "contacts/kind", "contacts/point"};
 
 /// Reads a problem with its guesses and its solution. Of a file with several problems the first of global,
 /// global_rolling and local is read. What FCLIB may store as triplets, compressed columns or compressed rows comes as

@@ -83,6 +83,7 @@ TEST_CASE("the choices of a solve choose", "[app][solve]")
     CHECK(sweeps("--order reversed") != plain);
     CHECK(sweeps("--order symmetric") != plain);
     CHECK(sweeps("--omega 0.5") > plain);
+    CHECK(sweeps("--omega 0.5,1") < sweeps("--omega 0.5"));
     CHECK(sweeps("--order shuffled --seed 1") != sweeps("--order shuffled --seed 2"));
     CHECK(sweeps("--local block") == 500); // stalls: tests/results/local_solves.md
     CHECK(sweeps("--local sliding") < 500);
@@ -108,6 +109,48 @@ TEST_CASE("a dumped step can be solved, from its own guess too", "[app][dump]")
         CHECK(u_n > -1e-9);
         CHECK(std::abs(std::min(u_n, solved.solution.r[solved.rows_per_contact * k])) < 1e-9);
     }
+}
+
+TEST_CASE("a dumped file says which spheres and contacts are its bodies and constraints", "[app][dump]")
+{
+    const Workplace place;
+    place.write("scene.toml", beads_in_a_box);
+    REQUIRE(place.talus("dump scene.toml --at 0.1 --set fill.0.count=30 --quiet -o step.hdf5").exit_code == 0);
+    const auto file = read_fclib(place.path("step.hdf5"));
+    for (const std::string list : talus::origin_lists) CHECK(file.origin.at(list).size() > 0);
+    const auto number = [&](const std::string& list, Eigen::Index k) { return file.origin.at(list)[k]; };
+    const auto vector = [&](const std::string& list, Eigen::Index k) {
+        return talus::Vec3(file.origin.at(list).segment<3>(3 * k));
+    };
+    const Eigen::Index spheres = file.origin.at("bodies/id").size();
+    for (Eigen::Index i = 0; i < spheres; ++i) {
+        CHECK(number("bodies/id", i) == static_cast<double>(i)); // none has left: bodies stand in the order of ids
+        CHECK(file.M.coeff(6 * i, 6 * i) ==
+              Approx(2500.0 * 4.0 / 3.0 * std::acos(-1.0) * std::pow(number("bodies/radius", i), 3)));
+    }
+    REQUIRE(file.origin.at("contacts/gap").size() == file.contacts());
+    int with_walls = 0;
+    for (Eigen::Index k = 0; k < file.contacts(); ++k) {
+        const auto a = static_cast<Eigen::Index>(number("contacts/id_a", k));
+        const double half_gap = 0.5 * number("contacts/gap", k);
+        const double from_a = (vector("contacts/point", k) - vector("bodies/position", a)).norm();
+        CHECK(from_a == Approx(number("bodies/radius", a) + half_gap).epsilon(1e-12));
+        CHECK(file.H.coeff(6 * a, 3 * k) * file.H.coeff(6 * a, 3 * k) +
+                  file.H.coeff(6 * a + 1, 3 * k) * file.H.coeff(6 * a + 1, 3 * k) +
+                  file.H.coeff(6 * a + 2, 3 * k) * file.H.coeff(6 * a + 2, 3 * k) ==
+              Approx(1.0)); // its normal, in the rows of sphere a
+        CHECK((number("contacts/kind", k) >= 0.0 && number("contacts/kind", k) <= 2.0));
+        with_walls += number("contacts/wall", k) >= 0.0;
+        if (number("contacts/wall", k) >= 0.0) {
+            CHECK(number("contacts/id_b", k) == -1.0);
+            continue;
+        }
+        const auto b = static_cast<Eigen::Index>(number("contacts/id_b", k));
+        const double from_b = (vector("contacts/point", k) - vector("bodies/position", b)).norm();
+        CHECK(from_b == Approx(number("bodies/radius", b) + half_gap).epsilon(1e-12));
+    }
+    CHECK(with_walls > 0);
+    CHECK(with_walls < file.contacts());
 }
 
 TEST_CASE("a dump has the same bytes whatever the number of threads", "[app][dump][determinism]")

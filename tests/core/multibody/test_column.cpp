@@ -22,10 +22,10 @@ int sweeps_needed(const std::vector<double>& masses, double omega, NextSequence&
     const auto problem = test::column(masses);
     const auto exact = test::column_impulses(masses);
     Iterate x(problem);
-    ProjectedGaussSeidel<Iterate> algorithm(x, LocalSolve::scalar, omega);
+    ProjectedGaussSeidel<Iterate> algorithm(x, LocalSolve::scalar);
     int sweeps = 0;
     while ((x.impulse() - exact).cwiseAbs().maxCoeff() >= 1e-3 * exact[0]) {
-        algorithm.sweep(x, next_sequence());
+        algorithm.sweep(x, next_sequence(), omega);
         ++sweeps;
     }
     return sweeps;

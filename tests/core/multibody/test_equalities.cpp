@@ -18,7 +18,7 @@ namespace
 /// As exact as sweeps get.
 SolveSettings exact(double omega = 1.0, Order order = Order::natural)
 {
-    return {.tolerance = 1e-14, .max_sweeps = 20000, .omega = omega, .order = order};
+    return {.tolerance = 1e-14, .max_sweeps = 20000, .omega = {omega}, .order = order};
 }
 
 double difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b)
@@ -146,12 +146,12 @@ TEST_CASE("the note's running error is not the residual; the drop of energy is",
 
     Iterate x(problem);
     const double before = energy_error(x);
-    const auto one = solve_with_local_residual(x, {.tolerance = 0.0, .max_sweeps = 1, .omega = omega});
+    const auto one = solve_with_local_residual(x, {.tolerance = 0.0, .max_sweeps = 1, .omega = {omega}});
     CHECK(one.running_error.energy_drop == Approx(before - energy_error(x)).epsilon(1e-10));
     CHECK(one.running_error.of_note != Approx(squared_residual(x)).epsilon(0.1));
 
     Iterate later(problem);
-    const auto forty = solve_with_local_residual(later, {.tolerance = 0.0, .max_sweeps = 40, .omega = 1.0});
+    const auto forty = solve_with_local_residual(later, {.tolerance = 0.0, .max_sweeps = 40, .omega = {1.0}});
     CHECK(forty.running_error.energy_left() == Approx(energy_error(later)).epsilon(0.1));
 }
 

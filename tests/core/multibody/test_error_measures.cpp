@@ -126,9 +126,9 @@ TEST_CASE("over-relaxed contacts stay in their cones", "[multibody][note]")
 {
     const auto problem = coupled_contacts({});
     Iterate x(problem);
-    ProjectedGaussSeidel<Iterate> algorithm(x, LocalSolve::sequential, 1.6);
+    ProjectedGaussSeidel<Iterate> algorithm(x, LocalSolve::sequential);
     for (int sweep = 0; sweep < 20; ++sweep) {
-        algorithm.sweep(x, {0, 1, 2});
+        algorithm.sweep(x, {0, 1, 2}, 1.6);
         CHECK(measure_errors(x).cone_violation < 1e-14);
     }
 }
