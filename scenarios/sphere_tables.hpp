@@ -62,8 +62,8 @@ struct RegionTable {
     static void describe(auto& self, auto&& key, const std::vector<std::string_view>& shapes)
     {
         // The keys of the other shapes only where these may stand.
-        const auto with = [&](const char* shape, std::vector<std::string_view> kinds) {
-            if (std::ranges::find(shapes, shape) != shapes.end()) kinds.emplace_back(shape);
+        const auto with = [&](const char* other, std::vector<std::string_view> kinds) {
+            if (std::ranges::find(shapes, other) != shapes.end()) kinds.emplace_back(other);
             return kinds;
         };
         const bool all = with("mesh", {}).size() == 1;

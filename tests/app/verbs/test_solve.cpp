@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/base/vector.hpp"
 #include "io/problem/fclib.hpp"
 #include "io/text/csv.hpp"
 #include "tests/app/program.hpp"
