@@ -87,22 +87,20 @@ ExitCode dump_step(const CommandLine& line)
     const StepProblem step = make_step_problem(simulation.state, simulation.network, simulation.model);
     FclibProblem file = to_fclib(step.problem, step.warm_impulse);
     file.title = fmt::format("{}: {}", opened.name, opened.scene.title);
+    const std::string as_run = options_of_run(simulation.model);
     file.description = fmt::format(
         "Talus {}, contact problem of the step of {:.6g} s from t = {:.9g} s on, seed {}; SI units, impulses in N s. "
         "Bodies: the spheres by id with (v, r omega), pistons with (v, omega), then one for each compliance. Guess 1 "
-        "has "
-        "the impulses carried over from the step before. Contacts come in the order of the run's sweeps, which are "
-        "those "
-        "of: talus solve {}",
-        TALUS_VERSION, simulation.model.time_step, simulation.state.time, opened.scene.seed,
-        options_of_run(simulation.model));
+        "has the impulses carried over from the step before. Contacts come in the order of the run's sweeps, which are "
+        "those of: talus solve {}",
+        TALUS_VERSION, simulation.model.time_step, simulation.state.time, opened.scene.seed, as_run);
     file.origin = origin_of(step, simulation.state);
     write_fclib(file, line.out);
     if (line.verbosity != Verbosity::quiet)
         say("{}: {} contacts, {} spheres, t = {:.6g} s\n", line.out.string(), file.contacts(), simulation.state.count(),
             simulation.state.time);
     if (line.verbosity != Verbosity::quiet)
-        say("to sweep it as the run does: talus solve {} {}\n", line.out.string(), options_of_run(simulation.model));
+        say("to sweep it as the run does: talus solve {} {}\n", line.out.string(), as_run);
     return ExitCode::done;
 }
 

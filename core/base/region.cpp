@@ -20,10 +20,10 @@ double depth_in_box(const Box& box, const Vec3& x)
 }
 
 /// Of a cone, with an axis along which x lies so far, and from which it is so far away.
-double depth_in_cone(const Region& cone, double along, double out)
+double depth_in_cone(const Region& cone, double top_radius, double along, double out)
 {
     // In the half-plane of x the cone is a trapezium, whose slanted side runs from (0, radius) to (height, top_radius).
-    const double slope = cone.top_radius - cone.radius, length = std::hypot(cone.height, slope);
+    const double slope = top_radius - cone.radius, length = std::hypot(cone.height, slope);
     const double to_side = ((cone.radius - out) * cone.height + along * slope) / length;
     const double least = std::min({along, cone.height - along, to_side});
     if (least >= 0.0) return least;
@@ -31,7 +31,7 @@ double depth_in_cone(const Region& cone, double along, double out)
     const auto from_end = [&](double at, double radius) { return std::hypot(along - at, std::max(0.0, out - radius)); };
     const double t = std::clamp((along * cone.height + (out - cone.radius) * slope) / (length * length), 0.0, 1.0);
     const double from_side = std::hypot(along - t * cone.height, out - cone.radius - t * slope);
-    return -std::min({from_side, from_end(0.0, cone.radius), from_end(cone.height, cone.top_radius)});
+    return -std::min({from_side, from_end(0.0, cone.radius), from_end(cone.height, top_radius)});
 }
 
 Vec3 random_in_box(const Box& box, Random& random)
@@ -57,10 +57,8 @@ double Region::depth(const Vec3& x) const
     if (shape == Shape::box) return depth_in_box(box, x);
     if (shape == Shape::inside) return surface->depth(x);
     if (shape == Shape::sphere) return radius - (x - base).norm();
-    Region cone = *this;
-    if (shape == Shape::cylinder) cone.top_radius = radius;
     const double along = (x - base).dot(axis);
-    return depth_in_cone(cone, along, (x - base - along * axis).norm());
+    return depth_in_cone(*this, shape == Shape::cone ? top_radius : radius, along, (x - base - along * axis).norm());
 }
 
 double Region::volume() const

@@ -79,7 +79,7 @@ private:
     bool part(PackedSphere& a, PackedSphere& b, bool a_free, bool b_free) const
     {
         const Vec3 way = apart(a, b);
-        const double distance = way.norm(), deep = (1.0 + margin) * (a.radius + b.radius) - distance;
+        const double distance = way.norm(), deep = overlap(a, b, 1.0 + margin);
         if (deep <= 0.0 || !(distance > 0.0)) return false;
         const double of_a = a_free ? b.radius * b.radius * b.radius : 0.0;
         const double of_b = b_free ? a.radius * a.radius * a.radius : 0.0;
