@@ -20,7 +20,7 @@ void let_in_and_out(Simulation& simulation)
 {
     for (auto& source : simulation.pours) pour(source, simulation.state, simulation.model);
     if (simulation.state.steps % outlet_interval == 0)
-        empty_outlets(simulation.outflow, simulation.state, simulation.network, simulation.model);
+        empty_outlets(simulation.outflow, simulation.state, simulation.network);
 }
 
 } // namespace
@@ -60,8 +60,7 @@ StepReport run_until(Simulation& simulation, double time, const StepHooks& hooks
     StepReport report;
     while (!has_reached(simulation, time) && !simulation.incident_policy.stops(report)) {
         if (!report.bodies.incidents.empty())
-            remove_escaped(
-                simulation.escaped, simulation.state, simulation.network, simulation.model, report.bodies.incidents);
+            remove_escaped(simulation.escaped, simulation.state, simulation.network, report.bodies.incidents);
         if (hooks.before_step && !hooks.before_step()) break;
         report = advance(simulation, hooks.on_phase);
         if (hooks.after_step) hooks.after_step(report);

@@ -2,6 +2,7 @@
 #include "core/candidates/candidate_list.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace talus
 {
@@ -19,69 +20,91 @@ double tile_edge(const std::vector<PairEntry>& pairs, const State& state, const 
     return std::max(4.0 * model.max_diameter, 2.001 * farthest);
 }
 
-/// Entries by sphere: those of sphere i are sorted[first[i]] to sorted[first[i] + count[i] − 1].
-template <class Entry> struct BySphere {
-    std::vector<std::uint32_t> first, count;
-    std::vector<Entry> sorted;
-};
-
-/// Brings entries into the order of the tiles' spheres, and those of a sphere into that of their other half.
-template <class Entry, class SphereOf, class OtherOf>
-BySphere<Entry> sort_by_sphere(const std::vector<Entry>& entries, const Tiles& tiles, SphereOf sphere, OtherOf other)
+/// The pairs whose first sphere is i are entries first[i] to first[i + 1] − 1.
+std::vector<std::uint32_t> first_of_spheres(const std::vector<PairEntry>& entries, std::size_t spheres)
 {
-    const std::size_t spheres = tiles.spheres.size();
-    BySphere<Entry> result{
-        std::vector<std::uint32_t>(spheres), std::vector<std::uint32_t>(spheres), std::vector<Entry>(entries.size())};
-    for (const Entry& e : entries) ++result.count[sphere(e)];
-    std::uint32_t next = 0;
-    for (const auto i : tiles.spheres) {
-        result.first[i] = next;
-        next += result.count[i];
-    }
-    auto place = result.first;
-    for (const Entry& e : entries) result.sorted[place[sphere(e)]++] = e;
-    for (std::size_t i = 0; i < spheres; ++i) {
-        const auto begin = result.sorted.begin() + result.first[i];
-        std::sort(begin, begin + result.count[i], [&](const Entry& p, const Entry& q) { return other(p) < other(q); });
-    }
-    return result;
+    std::vector<std::uint32_t> first(spheres + 1, 0);
+    for (const PairEntry& e : entries) ++first[static_cast<std::size_t>(e.pair.a) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    return first;
 }
 
 /// The order in which a tile's pairs are swept: the first pair of every sphere, then the second of every sphere, and so
 /// on. Two contacts in a row then seldom share a sphere, so the processor need not wait for one to be written before it
 /// reads for the next (twice as fast as sphere by sphere); how many sweeps are needed does not depend on the order.
 template <class Visit>
-void for_each_pair_in_sweep_order(const Tiles& tiles, const BySphere<PairEntry>& pairs, std::size_t tile, Visit&& visit)
+void for_each_pair_in_sweep_order(
+    const Tiles& tiles, const std::vector<std::uint32_t>& first, std::size_t tile, Visit&& visit)
 {
     bool more = true;
     for (std::uint32_t round = 0; more; ++round) {
         more = false;
         for (auto k = tiles.first[tile]; k < tiles.first[tile + 1]; ++k) {
-            const auto i = tiles.spheres[k];
-            if (round >= pairs.count[i]) continue;
-            visit(pairs.sorted[pairs.first[i] + round]);
+            const auto i = static_cast<std::size_t>(tiles.spheres[k]);
+            if (first[i] + round >= first[i + 1]) continue;
+            visit(first[i] + round);
             more = true;
         }
     }
 }
 
 /// Lays down the new pair list by tile, in sweep order, with its carried impulses.
-void lay_down_pairs(
-    CandidateList& list, CarriedImpulses& carried, const std::vector<PairEntry>& entries, bool with_rolling)
+void lay_down_pairs(CandidateList& list, CarriedImpulses& carried, const std::vector<PairEntry>& entries,
+    std::size_t spheres, bool with_rolling)
 {
-    const auto by_sphere = sort_by_sphere(
-        entries, list.tiles, [](const PairEntry& e) { return e.pair.a; }, [](const PairEntry& e) { return e.pair.b; });
-    const auto old = std::move(carried);
-    carried = CarriedImpulses(entries.size(), with_rolling);
-    list.pairs.clear();
+    const auto first = first_of_spheres(entries, spheres);
+    const auto tiles = static_cast<std::int64_t>(list.tiles.count());
     list.pairs_of_tile.assign(1, 0);
     for (std::size_t t = 0; t < list.tiles.count(); ++t) {
-        for_each_pair_in_sweep_order(list.tiles, by_sphere, t, [&](const PairEntry& e) {
-            if (e.old != not_listed) carried.copy(list.pairs.size(), old, static_cast<std::size_t>(e.old), e.opposite);
-            list.pairs.push_back(e.pair);
-        });
-        list.pairs_of_tile.push_back(static_cast<std::uint32_t>(list.pairs.size()));
+        std::uint32_t count = 0;
+        for (auto k = list.tiles.first[t]; k < list.tiles.first[t + 1]; ++k) {
+            const auto i = static_cast<std::size_t>(list.tiles.spheres[k]);
+            count += first[i + 1] - first[i];
+        }
+        list.pairs_of_tile.push_back(list.pairs_of_tile.back() + count);
     }
+
+    const auto old = std::move(carried);
+    carried = CarriedImpulses(entries.size(), with_rolling);
+    list.pairs.resize(entries.size());
+#pragma omp parallel for schedule(dynamic) if (tiles > 16)
+    for (std::int64_t t = 0; t < tiles; ++t) {
+        const auto tile = static_cast<std::size_t>(t);
+        std::size_t slot = list.pairs_of_tile[tile];
+        for_each_pair_in_sweep_order(list.tiles, first, tile, [&](std::uint32_t entry) {
+            const PairEntry& e = entries[entry];
+            list.pairs[slot] = e.pair;
+            if (e.old != not_listed) carried.copy(slot, old, static_cast<std::size_t>(e.old), e.opposite);
+            ++slot;
+        });
+    }
+}
+
+/// Entries of walls by sphere: those of sphere i are sorted[first[i]] to sorted[first[i] + count[i] − 1].
+struct WallsBySphere {
+    std::vector<std::uint32_t> first, count;
+    std::vector<WallEntry> sorted;
+};
+
+/// Brings them into the order of the tiles' spheres, and those of a sphere into that of the walls.
+WallsBySphere sort_by_sphere(const std::vector<WallEntry>& entries, const Tiles& tiles)
+{
+    const std::size_t spheres = tiles.spheres.size();
+    WallsBySphere result{std::vector<std::uint32_t>(spheres), std::vector<std::uint32_t>(spheres),
+        std::vector<WallEntry>(entries.size())};
+    for (const WallEntry& e : entries) ++result.count[e.sphere];
+    std::uint32_t next = 0;
+    for (const auto i : tiles.spheres) {
+        result.first[i] = next;
+        next += result.count[i];
+    }
+    auto place = result.first;
+    for (const WallEntry& e : entries) result.sorted[place[e.sphere]++] = e;
+    for (std::size_t i = 0; i < spheres; ++i) {
+        const auto begin = result.sorted.begin() + result.first[i];
+        std::sort(begin, begin + result.count[i], [](const auto& p, const auto& q) { return p.wall < q.wall; });
+    }
+    return result;
 }
 
 /// Puts what the contacts of an old wall pair carried into the slots of its successor.
@@ -98,9 +121,7 @@ void carry_wall_pair(WallPair& pair, Carried& carried, const WallPair& old_pair,
 /// Lays down the wall list by tile, sphere and wall, with its carried impulses.
 void lay_down_walls(CandidateList& list, Carried& carried, const CandidateEntries& entries, bool with_rolling)
 {
-    const auto by_sphere = sort_by_sphere(
-        entries.walls, list.tiles, [](const WallEntry& e) { return e.sphere; },
-        [](const WallEntry& e) { return e.wall; });
+    const auto by_sphere = sort_by_sphere(entries.walls, list.tiles);
     const auto old_pairs = std::move(list.wall_pairs);
     const auto old = std::move(carried.walls);
     const auto old_normal = std::move(carried.wall_normal);
@@ -142,7 +163,7 @@ void lay_down(
 {
     list.tiles =
         make_tiles(state.position, tile_edge(entries.pairs, state, model), model.periodicity, model.contents.min);
-    lay_down_pairs(list, carried.pairs, entries.pairs, model.physics.rolling);
+    lay_down_pairs(list, carried.pairs, entries.pairs, state.count(), model.physics.rolling);
     lay_down_walls(list, carried, entries, model.physics.rolling);
 }
 

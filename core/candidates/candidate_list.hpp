@@ -63,15 +63,19 @@ struct WallEntry {
     std::int32_t old = not_listed; ///< index in the old list
 };
 
-/// A candidate list as it was found, in no particular order.
+/// A candidate list as it was found.
 struct CandidateEntries {
-    std::vector<PairEntry> pairs;
-    std::vector<WallEntry> walls;
+    std::vector<PairEntry> pairs; ///< in the order of their spheres
+    std::vector<WallEntry> walls; ///< in no particular order
     std::vector<std::int32_t> patches;
 };
 
 /// Lays the list down by tile, in the order in which it is swept; what is carried moves with its pairs.
 void lay_down(
     CandidateList& list, Carried& carried, const CandidateEntries& entries, const State& state, const Model& model);
+
+/// Spheres are gone: sphere i is now new_index[i], or gone where that is negative; the others keep their order. The
+/// list stays as it is laid down but for what they were part of. (In candidate_removal.cpp.)
+void remove_candidates(CandidateList& list, Carried& carried, const std::vector<std::int32_t>& new_index);
 
 } // namespace talus

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 namespace talus
 {
@@ -82,11 +83,10 @@ public:
             first_wall_pair_[list.wall_pairs[k].sphere] = static_cast<std::int32_t>(k);
     }
 
-    std::int32_t find(const IndexPair& pair) const
+    /// The slots of the pairs whose first sphere is i, in the order of their second.
+    std::span<const std::int32_t> of(std::size_t i) const
     {
-        for (auto k = first_[pair.a]; k < first_[pair.a + 1]; ++k)
-            if (list_.pairs[slots_[k]].b == pair.b) return slots_[k];
-        return not_listed;
+        return {slots_.data() + first_[i], slots_.data() + first_[i + 1]};
     }
 
     std::int32_t find_wall(std::int32_t sphere, std::int32_t wall) const
@@ -117,21 +117,50 @@ bool can_touch(const CandidateList& list, const State& state, const Model& model
     return model.periodicity.apart(a, b).squaredNorm() <= (ra + rb) * (ra + rb);
 }
 
+/// The pairs with at least one member in `movers`, in order.
+std::vector<IndexPair> pairs_of(
+    const std::vector<std::int32_t>& movers, const CandidateList& list, const State& state, const Model& model)
+{
+    const bool alone = static_cast<double>(movers.size()) < few * static_cast<double>(list.listed_box.size());
+    const auto met = alone ? find_box_pairs(list.listed_box, movers, model.periodicity)
+                           : find_box_pairs(list.listed_box, model.periodicity);
+    std::vector<std::uint32_t> first(state.count() + 1, 0);
+    std::vector<std::uint8_t> serves(met.size());
+#pragma omp parallel for schedule(static) if (met.size() > 10000)
+    for (std::size_t k = 0; k < met.size(); ++k) serves[k] = can_touch(list, state, model, met[k]);
+    for (std::size_t k = 0; k < met.size(); ++k)
+        if (serves[k]) ++first[static_cast<std::size_t>(met[k].a) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<IndexPair> sorted(first.back());
+    auto place = first;
+    for (std::size_t k = 0; k < met.size(); ++k)
+        if (serves[k]) sorted[place[static_cast<std::size_t>(met[k].a)]++] = met[k];
+    for (std::size_t i = 0; i < state.count(); ++i) std::sort(sorted.begin() + first[i], sorted.begin() + first[i + 1]);
+    return sorted;
+}
+
+/// New pairs of movers, and the old ones of all others. Both come in the order of their spheres.
 void search_spheres(CandidateEntries& entries, const CandidateList& list, const OldPairs& old, const State& state,
     const Model& model, const std::vector<std::int32_t>& movers)
 {
-    const bool alone = static_cast<double>(movers.size()) < few * static_cast<double>(list.listed_box.size());
-    const auto found = alone ? find_box_pairs(list.listed_box, movers, model.periodicity)
-                             : find_box_pairs(list.listed_box, model.periodicity);
-    for (const auto& pair : found)
-        if (can_touch(list, state, model, pair)) entries.pairs.push_back({pair, old.find(pair)});
-    if (!alone) return;
-
-    std::vector<std::uint8_t> moves(list.listed_box.size(), 0);
+    const auto found = pairs_of(movers, list, state, model);
+    const bool all = static_cast<double>(movers.size()) >= few * static_cast<double>(list.listed_box.size());
+    std::vector<std::uint8_t> moves(list.listed_box.size(), all);
     for (const auto i : movers) moves[i] = 1;
-    for (std::size_t k = 0; k < list.pairs.size(); ++k)
-        if (!moves[list.pairs[k].a] && !moves[list.pairs[k].b])
-            entries.pairs.push_back({list.pairs[k], static_cast<std::int32_t>(k)});
+    entries.pairs.reserve(list.pairs.size() + found.size());
+    auto next = found.begin();
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        const auto sphere = static_cast<std::int32_t>(i);
+        for (const std::int32_t slot : old.of(i)) {
+            const IndexPair& pair = list.pairs[static_cast<std::size_t>(slot)];
+            for (; next != found.end() && *next < pair; ++next) entries.pairs.push_back({*next});
+            if (next != found.end() && *next == pair)
+                entries.pairs.push_back({*next++, slot});
+            else if (!moves[i] && !moves[pair.b])
+                entries.pairs.push_back({pair, slot});
+        }
+        for (; next != found.end() && next->a == sphere; ++next) entries.pairs.push_back({*next});
+    }
 }
 
 /// The walls that have moved so far since they were listed, or will in this step, that their lists may miss a sphere.
@@ -240,23 +269,21 @@ void renumber_candidates(CandidateList& list, Carried& carried, const State& sta
     const std::vector<std::int32_t>& new_index)
 {
     std::vector<Box> listed_box(state.count());
-    for (std::size_t i = 0; i < list.listed_box.size(); ++i)
-        if (new_index[i] >= 0) listed_box[new_index[i]] = list.listed_box[i];
+    for (std::size_t i = 0; i < list.listed_box.size(); ++i) listed_box[new_index[i]] = list.listed_box[i];
     list.listed_box = std::move(listed_box);
 
     CandidateEntries entries;
     for (std::size_t k = 0; k < list.pairs.size(); ++k) {
         const IndexPair moved{new_index[list.pairs[k].a], new_index[list.pairs[k].b]};
-        if (moved.a < 0 || moved.b < 0) continue;
         const bool opposite = moved.a > moved.b;
         entries.pairs.push_back(
             {opposite ? IndexPair{moved.b, moved.a} : moved, static_cast<std::int32_t>(k), opposite});
     }
+    std::ranges::sort(entries.pairs, {}, &PairEntry::pair);
     for (std::size_t k = 0; k < list.wall_pairs.size(); ++k) {
         const auto& pair = list.wall_pairs[k];
-        if (new_index[pair.sphere] >= 0)
-            entries.walls.push_back(
-                {new_index[pair.sphere], pair.wall, pair.first, pair.patches, static_cast<std::int32_t>(k)});
+        entries.walls.push_back(
+            {new_index[pair.sphere], pair.wall, pair.first, pair.patches, static_cast<std::int32_t>(k)});
     }
     entries.patches = list.patches;
     lay_down(list, carried, entries, state, model);

@@ -30,7 +30,7 @@ inline constexpr double closing_horizon = 1.5;
 std::size_t update_candidates(CandidateList& list, Carried& carried, const State& state, const Model& model, double h,
     const std::vector<PlacedWall>& walls);
 
-/// Follows a new storage order of the spheres: sphere i is now new_index[i], or gone where that is negative.
+/// Follows a new storage order of the spheres: sphere i is now new_index[i].
 /// @param state already renumbered
 void renumber_candidates(CandidateList& list, Carried& carried, const State& state, const Model& model,
     const std::vector<std::int32_t>& new_index);

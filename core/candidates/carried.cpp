@@ -5,32 +5,28 @@ namespace talus
 {
 
 CarriedImpulses::CarriedImpulses(std::size_t slots, bool with_rolling)
-    : impulse(slots, Vec3::Zero()), rolling_impulse(with_rolling ? slots : 0, Vec3::Zero()), touch(slots),
-      free_overlap(slots, 0.0F)
+    : contact(slots), rolling_impulse(with_rolling ? slots : 0, Vec3::Zero())
 {
-}
-
-void CarriedImpulses::clear(std::size_t slot)
-{
-    if (!touch[slot].is_loaded()) return; // nothing is carried without
-    impulse[slot].setZero();
-    if (!rolling_impulse.empty()) rolling_impulse[slot].setZero();
-    touch[slot] = {};
 }
 
 void CarriedImpulses::scale(double factor)
 {
-    for (Vec3& p : impulse) p *= factor;
+    for (CarriedContact& own : contact) own.impulse *= factor;
     for (Vec3& p : rolling_impulse) p *= factor;
+}
+
+void CarriedImpulses::shrink(std::size_t slots)
+{
+    contact.resize(slots);
+    if (!rolling_impulse.empty()) rolling_impulse.resize(slots);
 }
 
 void CarriedImpulses::copy(std::size_t slot, const CarriedImpulses& from, std::size_t from_slot, bool opposite)
 {
     const double sign = opposite ? -1.0 : 1.0;
-    impulse[slot] = sign * from.impulse[from_slot];
+    contact[slot] = from.contact[from_slot];
+    contact[slot].impulse *= sign;
     if (!rolling_impulse.empty()) rolling_impulse[slot] = sign * from.rolling_impulse[from_slot];
-    touch[slot] = from.touch[from_slot];
-    free_overlap[slot] = from.free_overlap[from_slot];
 }
 
 double Carried::scale_to(double step)

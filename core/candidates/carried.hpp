@@ -65,19 +65,27 @@ inline constexpr double pressed_overlap = 0.01;
 /// From this overlap on, in smallest diameters, a compliant contact can be crushed.
 inline constexpr double crushed_overlap = 0.125;
 
-/// The impulses that contacts hand on from one step to the next, by slot: a slot is a listed pair, or one of those of a
-/// listed wall.
+/// What a contact hands on from one step to the next; zeros where nothing is.
+struct alignas(32) CarriedContact {
+    Vec3 impulse = Vec3::Zero(); ///< λ [N s]
+    float free_overlap = 0.0F;   ///< f: what of its overlap is no spring [m]; known where it was loaded: law.hpp
+    TouchRecord touch;
+    std::uint8_t unused[3] = {}; ///< kernels read the last eight bytes as one number
+
+    void persist(Archive& archive) { archive(impulse, free_overlap, touch); }
+};
+static_assert(sizeof(CarriedContact) == 32);
+
+/// What contacts hand on, by slot: a slot is a listed pair, or one of those of a listed wall.
 struct CarriedImpulses {
-    std::vector<Vec3> impulse;         ///< λ [N s], zero where nothing is carried
+    std::vector<CarriedContact> contact;
     std::vector<Vec3> rolling_impulse; ///< [N m s]; empty unless the scene has rolling resistance
-    std::vector<TouchRecord> touch;
-    std::vector<float> free_overlap; ///< what of its overlap is no spring [m]; known where it was loaded: law.hpp
 
     CarriedImpulses() = default;
     CarriedImpulses(std::size_t slots, bool with_rolling);
-    void persist(Archive& archive) { archive(impulse, rolling_impulse, touch, free_overlap); }
-    void clear(std::size_t slot);
-    void scale(double factor); ///< all of them
+    void persist(Archive& archive) { archive(contact, rolling_impulse); }
+    void scale(double factor);      ///< all of them
+    void shrink(std::size_t slots); ///< the first ones remain
     void copy(std::size_t slot, const CarriedImpulses& from, std::size_t from_slot, bool opposite = false);
 };
 

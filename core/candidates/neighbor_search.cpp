@@ -10,8 +10,8 @@ namespace talus
 namespace
 {
 
-/// A box as CGAL's search wants it (concept BoxIntersectionBox_d). Its id is the index: `box_intersection_d` leaves out
-/// pairs with equal ids, which here are exactly a mover paired with itself.
+/// A box as CGAL's search wants it (concept BoxIntersectionBox_d). Its id is the index: pairs with equal ids, a box and
+/// its own image, are left out.
 class SearchBox
 {
 public:
@@ -30,8 +30,7 @@ private:
     ID index_;
 };
 
-/// Below this number of boxes CGAL tries every pair; with its default of 10 a full search takes 1.7
-/// times as long, and with 1000 a search for few movers does.
+/// Below this number of boxes CGAL tries every pair; with its default of 10 a search takes 1.7 times as long.
 constexpr std::ptrdiff_t cutoff = 30;
 
 /// Boxes of a slab, on average. Smaller ones are searched faster, but then more boxes stand in two.
@@ -120,14 +119,13 @@ IndexPair ordered(std::int32_t i, std::int32_t j)
     return {std::min(i, j), std::max(i, j)};
 }
 
-/// In a short cell two boxes may meet across its border on both sides.
+} // namespace
+
 void keep_each_once(std::vector<IndexPair>& pairs)
 {
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
-
-} // namespace
 
 std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes, const Periodicity& periodicity)
 {
@@ -139,35 +137,6 @@ std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes, const Perio
             in_slab[k].begin(), in_slab[k].end(),
             [&](const SearchBox& p, const SearchBox& q) {
                 if (slabs.is_in(k, p, q)) found.push_back(ordered(p.id(), q.id()));
-            },
-            cutoff);
-    });
-    if (periodicity.any()) keep_each_once(pairs);
-    return pairs;
-}
-
-std::vector<IndexPair> find_box_pairs(
-    const std::vector<Box>& boxes, const std::vector<std::int32_t>& movers, const Periodicity& periodicity)
-{
-    std::vector<std::uint8_t> moves(boxes.size(), 0);
-    std::vector<SearchBox> some;
-    some.reserve(movers.size());
-    Box around;
-    for (const auto i : movers) {
-        moves[static_cast<std::size_t>(i)] = 1;
-        some.emplace_back(boxes[static_cast<std::size_t>(i)], i);
-        around.extend(boxes[static_cast<std::size_t>(i)]);
-    }
-    const auto others = search_boxes(boxes, periodicity.neighbor_shifts(), around);
-    const Slabs slabs(some);
-    auto movers_in = slabs.sort(some), others_in = slabs.sort(others);
-    auto pairs = search_slabs(slabs, [&](std::size_t k, std::vector<IndexPair>& found) {
-        CGAL::box_intersection_d<CGAL::Sequential_tag>(
-            movers_in[k].begin(), movers_in[k].end(), others_in[k].begin(), others_in[k].end(),
-            [&](const SearchBox& mover, const SearchBox& other) {
-                // Two movers meet twice, once in each role.
-                if (moves[static_cast<std::size_t>(other.id())] && other.id() < mover.id()) return;
-                if (slabs.is_in(k, mover, other)) found.push_back(ordered(mover.id(), other.id()));
             },
             cutoff);
     });

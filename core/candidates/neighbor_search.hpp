@@ -21,9 +21,14 @@ struct IndexPair {
 /// (CGAL's box intersection, slab by slab, the slabs at the same time).
 std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes, const Periodicity& periodicity = {});
 
-/// The same, but only the pairs with at least one member in `movers`, whose entries differ.
+/// The same, but only the pairs with at least one member in `movers`, whose entries differ: in a grid of their own, for
+/// few of them (mover_search.cpp).
 std::vector<IndexPair> find_box_pairs(
     const std::vector<Box>& boxes, const std::vector<std::int32_t>& movers, const Periodicity& periodicity = {});
+
+/// Sorts the pairs, and keeps one of those that are equal: in a short cell two boxes may meet across its border on both
+/// sides.
+void keep_each_once(std::vector<IndexPair>& pairs);
 
 /// The same as the first by trying every pair: the oracle of the tests.
 std::vector<IndexPair> find_box_pairs_brute_force(const std::vector<Box>& boxes, const Periodicity& periodicity = {});

@@ -2,7 +2,8 @@
 #include "core/contacts/assembly.hpp"
 
 #include "core/candidates/candidate_search.hpp"
-#include "core/contacts/tile_assembly.hpp"
+#include "core/contacts/sphere_contacts.hpp"
+#include "core/contacts/wall_assembly.hpp"
 #include "core/contacts/wall_contacts.hpp"
 
 #include <algorithm>
@@ -31,40 +32,10 @@ StepConstants step_constants(const Model& model, const StepLength& length)
     step.touching = touching * model.min_diameter;
     step.inverse_inertia = model.physics.spin ? inverse_inertia_factor : 0.0;
     step.restitution = model.physics.restitution;
+    step.jam_steps = TouchRecord::jam_steps;
     for (int d = 0; d < 3; ++d) step.cell_length[d] = model.periodicity.length[d];
     step.is_periodic = model.periodicity.any();
     return step;
-}
-
-/// So wide that two spheres of which one comes within reach of the other have balls that meet.
-ReachBall reach_ball(const State& state, std::size_t i, const StepConstants& step)
-{
-    const Motion& m = state.motion[i];
-    const Vec3& x = state.position[i];
-    return {{x.x(), x.y(), x.z()}, m.radius + std::max(0.5 * step.reach, step.horizon * m.velocity.norm())};
-}
-
-/// Adds the candidates of a tile whose balls meet, and those that are loaded: few enough to look at one by one.
-ContactSurvey assemble_sphere_contacts(
-    ContactNetwork& network, std::size_t tile, const State& state, const Model& model, const StepConstants& step)
-{
-    const CandidateList& list = network.list;
-    CarriedImpulses& carried = network.carried.pairs;
-    AssemblyRoom& room = network.contacts.room();
-    const auto first = list.pairs_of_tile[tile], last = list.pairs_of_tile[tile + 1];
-    room.near.resize(std::max<std::size_t>(room.near.size(), last - first + 1));
-    static_assert(sizeof(TouchRecord) == 1 && sizeof(IndexPair) == 2 * sizeof(std::int32_t));
-    const std::size_t count =
-        fastest_kernels().touch.find_near(reinterpret_cast<const std::int32_t*>(list.pairs.data()),
-            reinterpret_cast<const std::uint8_t*>(carried.touch.data()), first, last,
-            network.contacts.reach_balls.data(), step, room.near.data());
-    TileAssembly assembly(
-        network.contacts.spheres[tile], Touched::spheres, carried, network.contacts, state, model, step);
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t k = room.near[i];
-        assembly.add(list.pairs[k].a, list.pairs[k].b, k);
-    }
-    return assembly.finish();
 }
 
 /// Finds the contacts of wall pairs and hands them to an assembly.
@@ -79,7 +50,7 @@ public:
 
     /// The contacts of one pair. Calls note(point, shift) for each that is added: where the wall is touched, seen from
     /// the image of the sphere that is shifted so.
-    template <class Note> void add_contacts(WallPair& pair, TileAssembly& assembly, Note&& note)
+    template <class Note> void add_contacts(WallPair& pair, WallAssembly& assembly, Note&& note)
     {
         const PlacedWall& wall = walls_[pair.wall];
         // The image of the sphere for which the patches are listed.
@@ -139,13 +110,13 @@ private:
     {
         const double angle = turn.norm();
         const bool is_smooth = angle > least_turn && angle * m.radius <= step_.law.h * m.velocity.norm();
-        const bool was_borne = !network_.carried.walls.impulse[slot].isZero(0.0);
+        const bool was_borne = !network_.carried.walls.contact[slot].impulse.isZero(0.0);
         return !wall.moves() && is_smooth && was_borne ? turn.dot(m.velocity) : 0.0;
     }
 
     /// @param turn of the normal since the step before, zero where it is not known
     bool add(const WallPair& pair, const PlacedWall& wall, const WallPoint& at, const Vec3& turn, std::uint32_t slot,
-        const Vec3& x, TileAssembly& assembly)
+        const Vec3& x, WallAssembly& assembly)
     {
         const Motion& m = state_.motion[pair.sphere];
         const Vec3& n = at.normal;
@@ -180,8 +151,8 @@ private:
 ContactSurvey assemble_wall_contacts(ContactNetwork& network, std::size_t tile, const State& state, const Model& model,
     const std::vector<PlacedWall>& walls, const StepConstants& step)
 {
-    TileAssembly assembly(
-        network.contacts.walls[tile], Touched::walls, network.carried.walls, network.contacts, state, model, step);
+    WallAssembly assembly(
+        network.contacts.walls[tile], false, network.carried.walls, network.contacts, state, model, step);
     WallDetection detection(network, state, model, walls, step);
     CandidateList& list = network.list;
     for (auto p = list.wall_pairs_of_tile[tile]; p < list.wall_pairs_of_tile[tile + 1]; ++p) {
@@ -195,8 +166,7 @@ ContactSurvey assemble_wall_contacts(ContactNetwork& network, std::size_t tile, 
 ContactSurvey assemble_piston_contacts(ContactNetwork& network, const State& state, const Model& model,
     const std::vector<PlacedWall>& walls, const StepConstants& step)
 {
-    TileAssembly assembly(
-        network.contacts.pistons, Touched::pistons, network.carried.walls, network.contacts, state, model, step);
+    WallAssembly assembly(network.contacts.pistons, true, network.carried.walls, network.contacts, state, model, step);
     WallDetection detection(network, state, model, walls, step);
     for (auto& pair : network.list.wall_pairs) {
         const PlacedWall& wall = walls[pair.wall];
@@ -236,15 +206,13 @@ ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, con
 {
     const StepConstants step = step_constants(model, length);
     network.contacts.resize(network.list, model.physics, state.count());
+    SphereAssembly spheres(network, state, model, step);
     const auto tiles = static_cast<std::int64_t>(network.list.tiles.count());
     std::vector<ContactSurvey> surveys(network.list.tiles.count());
-    network.contacts.reach_balls.resize(state.count());
-#pragma omp parallel for if (tiles > 16)
-    for (std::size_t i = 0; i < state.count(); ++i) network.contacts.reach_balls[i] = reach_ball(state, i, step);
 #pragma omp parallel for schedule(dynamic) if (tiles > 16)
     for (std::int64_t t = 0; t < tiles; ++t) {
         const auto tile = static_cast<std::size_t>(t);
-        surveys[tile] = assemble_sphere_contacts(network, tile, state, model, step);
+        surveys[tile] = spheres.assemble(tile);
         surveys[tile] += assemble_wall_contacts(network, tile, state, model, walls, step);
     }
     ContactSurvey all;

@@ -2,28 +2,13 @@
 #pragma once
 
 #include "core/contacts/contact_network.hpp"
+#include "core/contacts/contact_survey.hpp"
 #include "core/world/model.hpp"
 #include "core/world/placed_wall.hpp"
 #include "core/world/state.hpp"
 
 namespace talus
 {
-
-/// What assembly learns of the contacts on its way.
-struct ContactSurvey {
-    std::size_t count = 0;       ///< contacts in the problem, walls included
-    std::size_t overlapping = 0; ///< pairs with g < 0, in the problem or not
-    std::size_t impacts = 0;     ///< between spheres or at walls, in the problem
-    double worst_overlap = 0.0;  ///< at the beginning of the step [m]
-    double overlap_sum = 0.0;    ///< over the overlapping contacts [m]
-    double stored_energy = 0.0;  ///< ½ k g² in the compliant contacts at the beginning of the step [J]
-
-    double mean_overlap() const { return overlapping ? overlap_sum / static_cast<double>(overlapping) : 0.0; } ///< [m]
-    /// The contacts of another tile of the same step.
-    ContactSurvey& operator+=(const ContactSurvey& other);
-    /// The next sub-step: the worst of all, the contacts of the last, the energy at the beginning.
-    void then(const ContactSurvey& next);
-};
 
 /// Turns the candidates that touch, or will within this step and a half, into the contacts of this step's problem:
 /// normal, law (packs/law.hpp), effective masses, and the impulse carried over, put back into the new tangent plane

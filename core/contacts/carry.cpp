@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contacts/carry.hpp"
 
+#include "core/packs/kernels.hpp"
+
 #include <algorithm>
+#include <bit>
 
 namespace talus
 {
@@ -12,8 +15,8 @@ namespace
 /// in the step. A rigid one that is deep enough counts as pressed then, a compliant one as crushed (TouchRecord).
 constexpr double pressed_closing = 1e-8;
 
-/// Tells which contacts are pressed; none at pistons, which give way, and none where no wall moves as told: to stand
-/// still obeys every contact then.
+/// Tells which contacts are loaded or pressed; none is pressed at pistons, which give way, and none where no wall moves
+/// as told: to stand still obeys every contact then.
 struct PressGauge {
     const std::vector<Motion>& motion;
     bool rigid;     ///< `projected`
@@ -28,9 +31,11 @@ struct PressGauge {
     {
     }
 
-    void note(TouchRecord& touch, const TileContacts& contacts, std::size_t k, bool at_wall) const
+    /// What this step adds to the record of a contact.
+    TouchRecord noted(const TileContacts& contacts, std::size_t k, bool at_wall) const
     {
-        const ContactGeometry& geometry = contacts.geometry[k];
+        const ContactGeometry geometry = contacts.geometry(k);
+        TouchRecord touch = geometry.touch;
         const bool loaded = geometry.kind != ContactKind::impact && normal_impulse(contacts, k) > 0.0;
         if (-geometry.gap <= overlap)
             touch.note_load(loaded);
@@ -38,6 +43,7 @@ struct PressGauge {
             closes_under_load(contacts, k, at_wall) ? touch.note_pressed() : touch.note_unpressed();
         else
             touch.is_jammed() || is_crushed(contacts, k, at_wall) ? touch.note_crushed() : touch.note_load(loaded);
+        return touch;
     }
 
 private:
@@ -48,7 +54,7 @@ private:
 
     bool is_crushed(const TileContacts& contacts, std::size_t k, bool at_wall) const
     {
-        return -contacts.geometry[k].gap > crushed && closes_under_load(contacts, k, at_wall);
+        return -contacts.geometry(k).gap > crushed && closes_under_load(contacts, k, at_wall);
     }
 
     bool closes_under_load(const TileContacts& contacts, std::size_t k, bool at_wall) const
@@ -60,24 +66,51 @@ private:
     }
 };
 
-/// Worst excess of the tangential impulse over the cone; carries the impulses of one tile's contacts of one kind.
-ContactOutcome carry(const TileContacts& contacts, CarriedImpulses& carried, const PressGauge& gauge, bool at_wall)
+/// What the contacts between the spheres of a tile hand on.
+ContactOutcome carry_between_spheres(TileContacts& contacts, CarriedImpulses& carried, const PressGauge& gauge)
+{
+    ContactOutcome outcome;
+    auto* const records = reinterpret_cast<double*>(carried.contact.data());
+    for (std::size_t p = 0; p < contacts.packs(); ++p) {
+        unsigned deep = 0;
+        const double excess =
+            fastest_kernels().touch.hand_on(contacts.pack(p), contacts.record(p), gauge.overlap, deep, records);
+        outcome.cone_violation = std::max(outcome.cone_violation, excess);
+        for (; deep != 0; deep &= deep - 1) {
+            const std::size_t k = pack_size * p + static_cast<std::size_t>(std::countr_zero(deep));
+            const TouchRecord touch = gauge.noted(contacts, k, false);
+            contacts.set_touch(k, touch);
+            carried.contact[contacts.geometry(k).slot].touch = touch;
+            if (touch.is_newly_jammed()) ++outcome.newly_jammed;
+        }
+    }
+    if (contacts.has_rolling())
+        for (std::size_t k = 0; k < pack_size * contacts.packs(); ++k)
+            if (contacts.a(k) >= 0)
+                carried.rolling_impulse[contacts.geometry(k).slot] =
+                    contacts.kind(k) == ContactKind::impact ? Vec3::Zero().eval() : contacts.rolling_impulse(k);
+    return outcome;
+}
+
+/// The same of those with walls, one by one.
+ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, const PressGauge& gauge)
 {
     ContactOutcome outcome;
     for (const std::size_t k : contacts.indices()) {
         const Vec3 impulse = contacts.impulse(k), normal = contacts.normal(k);
-        const auto& geometry = contacts.geometry[k];
-        const bool keeps = geometry.kind != ContactKind::impact;
         const double normal_impulse = impulse.dot(normal);
         const double tangent_impulse = (impulse - normal_impulse * normal).norm();
         outcome.cone_violation =
             std::max(outcome.cone_violation, tangent_impulse - contacts.friction(k) * normal_impulse);
-        TouchRecord& touch = carried.touch[geometry.slot];
-        gauge.note(touch, contacts, k, at_wall);
+        const TouchRecord touch = gauge.noted(contacts, k, true);
+        contacts.set_touch(k, touch);
         if (touch.is_newly_jammed()) ++outcome.newly_jammed;
-        carried.impulse[geometry.slot] = keeps ? impulse : Vec3::Zero().eval();
+        const ContactGeometry own = contacts.geometry(k);
+        const bool keeps = own.kind != ContactKind::impact;
+        carried.contact[own.slot].impulse = keeps ? impulse : Vec3::Zero().eval();
+        carried.contact[own.slot].touch = touch;
         if (contacts.has_rolling())
-            carried.rolling_impulse[geometry.slot] = keeps ? contacts.rolling_impulse(k) : Vec3::Zero().eval();
+            carried.rolling_impulse[own.slot] = keeps ? contacts.rolling_impulse(k) : Vec3::Zero().eval();
     }
     return outcome;
 }
@@ -118,16 +151,16 @@ ContactOutcome& ContactOutcome::operator+=(const ContactOutcome& other)
 ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model, double h)
 {
     const PressGauge gauge(state, model, h);
-    const auto& contacts = network.contacts;
+    StepContacts& contacts = network.contacts;
     const auto tiles = static_cast<std::int64_t>(contacts.spheres.size());
     std::vector<ContactOutcome> outcomes(contacts.spheres.size());
 #pragma omp parallel for schedule(dynamic) if (tiles > 16)
     for (std::int64_t t = 0; t < tiles; ++t) {
         const auto tile = static_cast<std::size_t>(t);
         auto& outcome = outcomes[tile];
-        const TileContacts& walls = contacts.walls[tile];
-        outcome = carry(contacts.spheres[tile], network.carried.pairs, gauge, false);
-        outcome += carry(walls, network.carried.walls, gauge, true);
+        TileContacts& walls = contacts.walls[tile];
+        outcome = carry_between_spheres(contacts.spheres[tile], network.carried.pairs, gauge);
+        outcome += carry_at_walls(walls, network.carried.walls, gauge);
         if (walls.has_moving_walls())
             for (const std::size_t k : walls.indices()) {
                 outcome.wall_work += walls.impulse(k).dot(walls.wall(k).velocity);
@@ -140,7 +173,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
     for (const auto& outcome : outcomes) all += outcome;
     PressGauge none = gauge; // a piston gives way
     none.overlap = infinity;
-    all += carry(contacts.pistons, network.carried.walls, none, true);
+    all += carry_at_walls(contacts.pistons, network.carried.walls, none);
     all.from_pistons = load_from(contacts.pistons, state, h);
     note_walls_touched(contacts.pistons, state);
     return all;

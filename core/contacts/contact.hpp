@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/vector.hpp"
+#include "core/candidates/carried.hpp"
 #include "core/packs/contact_pack.hpp"
 
 #include <cstdint>
@@ -42,13 +43,15 @@ struct WallRow {
     Vec3 spin = Vec3::Zero();     ///< [rad/s]
 };
 
-/// What one step knows of a contact besides its solve; read by the position pass, the report and the frames.
+/// What one step knows of a contact besides its solve.
 struct ContactGeometry {
     double gap = 0.0;        ///< g at the beginning of the step [m]; < 0 is overlap
     double wall_level = 0.0; ///< n·x at which the gap to the wall is zero after the step [m]; unused between spheres
     std::uint32_t slot = 0;  ///< where its impulse is carried
     ContactKind kind = ContactKind::open;
-    bool waits = false; ///< it is left out of the problem where one of its spheres has an impact
+    bool waits = false;        ///< it is left out of the problem where one of its spheres has an impact
+    TouchRecord touch = {};    ///< what is known from the steps before; after carry_impulses with this one
+    float free_overlap = 0.0F; ///< f: what of the overlap is no spring [m]
 };
 
 } // namespace talus

@@ -10,7 +10,7 @@ void StepContacts::resize(const CandidateList& list, const ModelledPhysics& phys
 {
     spheres.resize(list.tiles.count());
     walls.resize(list.tiles.count());
-    for (TileContacts& tile : spheres) tile.clear(physics.rolling, false);
+    for (TileContacts& tile : spheres) tile.clear(physics.rolling, false, true);
     for (TileContacts& tile : walls) tile.clear(physics.rolling, physics.moving_walls);
     pistons.clear(physics.rolling, false);
     piston_arms.clear();

@@ -4,7 +4,9 @@
 #include "core/candidates/candidate_list.hpp"
 #include "core/contacts/pack_filler.hpp"
 #include "core/packs/touch_pack.hpp"
+#include "core/world/state.hpp"
 
+#include <atomic>
 #include <vector>
 
 namespace talus
@@ -13,9 +15,16 @@ namespace talus
 /// What a thread needs to assemble contacts.
 struct AssemblyRoom {
     PackFiller filler;
+    ContactPack contact = {};
     TouchPack touch = {};
     std::vector<std::uint32_t> near; ///< candidates of a tile
 };
+
+/// Marks a sphere. Tiles that share it may do so at once.
+inline void mark(std::vector<std::uint8_t>& spheres, std::int32_t sphere)
+{
+    std::atomic_ref(spheres[static_cast<std::size_t>(sphere)]).store(1, std::memory_order_relaxed);
+}
 
 /// The contacts of one step; scratch, made anew in every step.
 struct StepContacts {
@@ -36,6 +45,23 @@ struct StepContacts {
     void clear();
 };
 
+/// How the bodies moved before a step that may have to be taken back; scratch, kept for its room.
+struct MotionBefore {
+    std::vector<Motion> spheres;
+    std::vector<PistonState> pistons;
+
+    void take(const State& state)
+    {
+        spheres = state.motion;
+        pistons = state.pistons;
+    }
+    void put_back(State& state) const
+    {
+        state.motion = spheres;
+        state.pistons = pistons;
+    }
+};
+
 /// Who may touch whom, who does, and with what impulse: all that a step needs beyond the spheres themselves.
 ///
 ///   kept from step to step                                     scratch of a step
@@ -53,6 +79,7 @@ struct ContactNetwork {
     CandidateList list;
     Carried carried;
     StepContacts contacts;
+    MotionBefore before;
 
     /// What is kept.
     void persist(Archive& archive) { archive(list, carried); }

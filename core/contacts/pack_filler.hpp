@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace talus
@@ -22,49 +23,43 @@ public:
     void begin(TileContacts& contacts, std::size_t spheres)
     {
         contacts_ = &contacts;
-        if (behind_.size() < spheres) behind_.resize(spheres, 0);
+        if (stamp_.size() < spheres) stamp_.resize(spheres, 0);
         begin_window();
     }
 
     /// A place for a contact between these spheres. @param b < 0: none
     std::size_t place(std::int32_t a, std::int32_t b)
     {
-        const int behind = std::max(behind_[a], b >= 0 ? behind_[b] : std::uint8_t{0});
+        const std::uint32_t last = b >= 0 ? std::max(stamp_[a], stamp_[b]) : stamp_[a];
+        const std::uint32_t behind = last > before_ ? last - before_ : 0;
         std::uint64_t fits = behind < window ? open_ & (~std::uint64_t{0} << behind) : 0;
         if (fits == 0) fits = open_pack();
         const int p = std::countr_zero(fits);
-        const std::uint64_t bit = std::uint64_t{1} << p;
-        behind_[a] = static_cast<std::uint8_t>(p + 1);
-        if (b >= 0) behind_[b] = behind_[a];
-        spheres_.push_back(a);
-        if (b >= 0) spheres_.push_back(b);
+        stamp_[a] = before_ + static_cast<std::uint32_t>(p) + 1;
+        if (b >= 0) stamp_[b] = stamp_[a];
         const std::size_t k = pack_size * (first_ + static_cast<std::size_t>(p)) + count_[p];
-        if (++count_[p] == pack_size) open_ &= ~bit;
+        if (++count_[p] == pack_size) open_ &= ~(std::uint64_t{1} << p);
         return k;
     }
 
-    void end() { forget(); }
-
 private:
-    static constexpr int window = 64; ///< packs: bits of a word
+    static constexpr std::uint32_t window = 64; ///< packs: bits of a word
 
     TileContacts* contacts_ = nullptr;
-    std::vector<std::uint8_t> behind_;  ///< by sphere: one more than the last pack of the window that holds it
-    std::vector<std::int32_t> spheres_; ///< for which this is not 0
-    std::uint64_t open_ = 0;            ///< packs of the window with a free lane
+    std::vector<std::uint32_t> stamp_; ///< by sphere: of the last pack that holds it
+    std::uint32_t before_ = 0;         ///< greatest stamp of the windows before; that of pack p is p + 1 more
+    std::uint64_t open_ = 0;           ///< packs of the window with a free lane
     std::array<std::uint8_t, window> count_{};
     std::size_t first_ = 0; ///< pack of the window
     int packs_ = 0;         ///< of the window
 
-    void forget()
-    {
-        for (const std::int32_t sphere : spheres_) behind_[sphere] = 0;
-        spheres_.clear();
-    }
-
     void begin_window()
     {
-        forget();
+        if (before_ > std::numeric_limits<std::uint32_t>::max() - 2 * window) {
+            std::ranges::fill(stamp_, 0U);
+            before_ = 0;
+        } else
+            before_ += window;
         first_ = contacts_->packs();
         open_ = 0;
         packs_ = 0;
@@ -73,7 +68,7 @@ private:
 
     std::uint64_t open_pack()
     {
-        if (packs_ == window) begin_window();
+        if (packs_ == static_cast<int>(window)) begin_window();
         contacts_->append_pack();
         const std::uint64_t bit = std::uint64_t{1} << packs_++;
         open_ |= bit;

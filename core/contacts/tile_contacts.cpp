@@ -4,34 +4,56 @@
 namespace talus
 {
 
-void TileContacts::clear(bool rolling, bool moving_walls)
+void TileContacts::clear(bool rolling, bool moving_walls, bool made_whole)
 {
-    packs_.clear();
-    rolling_.clear();
-    wall_.clear();
-    geometry.clear();
+    count_ = 0;
     with_rolling_ = rolling;
     with_moving_walls_ = moving_walls;
+    made_whole_ = made_whole;
 }
 
 void TileContacts::append_pack()
 {
-    ContactPack& pack = packs_.emplace_back();
-    for (int lane = 0; lane < pack_size; ++lane) pack.a[lane] = pack.b[lane] = -1;
-    if (with_rolling_) rolling_.emplace_back();
-    if (with_moving_walls_) wall_.emplace_back();
-    geometry.resize(pack_size * packs_.size());
+    const std::size_t p = count_++;
+    if (packs_.size() < count_) {
+        packs_.emplace_back();
+        records_.emplace_back();
+        if (with_rolling_) rolling_.emplace_back();
+        if (with_moving_walls_) wall_.emplace_back();
+    } else if (!made_whole_) {
+        packs_[p] = {};
+        if (with_rolling_) rolling_[p] = {};
+        if (with_moving_walls_) wall_[p] = {};
+    }
+    for (int lane = 0; lane < pack_size; ++lane) packs_[p].a[lane] = packs_[p].b[lane] = -1;
+    records_[p].in_problem = records_[p].waits = 0;
 }
 
 std::size_t TileContacts::append()
 {
-    if (packs_.empty() || packs_.back().a[pack_size - 1] >= 0) append_pack();
-    std::size_t k = pack_size * (packs_.size() - 1);
+    if (count_ == 0 || packs_[count_ - 1].a[pack_size - 1] >= 0) append_pack();
+    std::size_t k = pack_size * (count_ - 1);
     while (a(k) >= 0) ++k;
     return k;
 }
 
 void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms& terms, const ContactGeometry& own)
+{
+    set(k, contact, terms);
+    RecordPack& record = record_at(k);
+    const std::size_t lane = k % pack_size;
+    const auto bit = static_cast<std::uint8_t>(1U << lane);
+    record.gap[lane] = own.gap;
+    record.wall_level[lane] = own.wall_level;
+    record.free_overlap[lane] = own.free_overlap;
+    record.slot[lane] = own.slot;
+    record.kind[lane] = own.kind;
+    set_touch(k, own.touch);
+    record.waits = static_cast<std::uint8_t>(own.waits ? record.waits | bit : record.waits & ~bit);
+    record.in_problem |= bit;
+}
+
+void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms& terms)
 {
     ContactPack& pack = packs_[k / pack_size];
     const std::size_t lane = k % pack_size;
@@ -46,40 +68,32 @@ void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms
     pack.normal_mass[lane] = terms.normal_mass;
     pack.tangent_mass[lane] = terms.tangent_mass;
     pack.inverse_mass_sum[lane] = terms.inverse_mass_sum;
-    geometry[k] = own;
 }
 
-void TileContacts::copy(std::size_t k, const ContactPack& from, int lane, const ContactGeometry& own)
+void TileContacts::place_pair(std::size_t k, std::int32_t sphere_a, std::int32_t sphere_b, std::uint32_t slot)
 {
-    ContactPack& pack = packs_[k / pack_size];
-    const std::size_t to = k % pack_size;
-    pack.a[to] = from.a[lane];
-    pack.b[to] = from.b[lane];
-    for (int d = 0; d < 3; ++d) {
-        pack.normal[d][to] = from.normal[d][lane];
-        pack.impulse[d][to] = from.impulse[d][lane];
-    }
-    pack.target[to] = from.target[lane];
-    pack.arm_scale[to] = from.arm_scale[lane];
-    pack.friction[to] = from.friction[lane];
-    pack.compliance[to] = from.compliance[lane];
-    pack.normal_mass[to] = from.normal_mass[lane];
-    pack.tangent_mass[to] = from.tangent_mass[lane];
-    pack.inverse_mass_sum[to] = from.inverse_mass_sum[lane];
-    geometry[k] = own;
+    packs_[k / pack_size].a[k % pack_size] = sphere_a;
+    packs_[k / pack_size].b[k % pack_size] = sphere_b;
+    records_[k / pack_size].slot[k % pack_size] = slot;
 }
 
-void TileContacts::remove(std::size_t k)
+void TileContacts::copy(std::size_t k, const ContactPack& from, std::size_t lane, const ContactGeometry& own)
 {
-    std::size_t last = k - k % pack_size + pack_size - 1;
-    while (a(last) < 0) --last;
-    copy(k, packs_[last / pack_size], static_cast<int>(last % pack_size), geometry[last]);
-    set(last, {.a = -1, .b = -1}, {}, {});
-    if (with_rolling_) {
-        set_rolling(k, rolling(last));
-        set_rolling(last, {});
-    }
-    if (with_moving_walls_) set_wall(k, wall(last));
+    const Contact contact{
+        from.a[lane], from.b[lane], get(from.normal, lane), from.target[lane], get(from.impulse, lane)};
+    set(k, contact,
+        {from.arm_scale[lane], from.friction[lane], from.compliance[lane], from.normal_mass[lane],
+            from.tangent_mass[lane], from.inverse_mass_sum[lane]},
+        own);
+}
+
+void TileContacts::take_out(std::size_t k)
+{
+    const Contact c = contact(k);
+    set(k, {.a = c.a, .b = c.b, .normal = c.normal}, {.friction = friction(k)});
+    if (with_rolling_) set_rolling(k, {});
+    record_at(k).in_problem &= static_cast<std::uint8_t>(~(1U << k % pack_size));
+    record_at(k).kind[k % pack_size] = ContactKind::resting;
 }
 
 void TileContacts::set_rolling(std::size_t k, const RollingRow& row)
@@ -98,8 +112,8 @@ void TileContacts::set_wall(std::size_t k, const WallRow& row)
 
 PackSpan TileContacts::span()
 {
-    return {packs_.data(), with_rolling_ ? rolling_.data() : nullptr, with_moving_walls_ ? wall_.data() : nullptr,
-        packs_.size()};
+    return {
+        packs_.data(), with_rolling_ ? rolling_.data() : nullptr, with_moving_walls_ ? wall_.data() : nullptr, count_};
 }
 
 Contact TileContacts::contact(std::size_t k) const
@@ -114,6 +128,14 @@ ContactTerms TileContacts::terms(std::size_t k) const
     const std::size_t lane = k % pack_size;
     return {pack.arm_scale[lane], pack.friction[lane], pack.compliance[lane], pack.normal_mass[lane],
         pack.tangent_mass[lane], pack.inverse_mass_sum[lane]};
+}
+
+ContactGeometry TileContacts::geometry(std::size_t k) const
+{
+    const RecordPack& record = records_[k / pack_size];
+    const std::size_t lane = k % pack_size;
+    return {record.gap[lane], record.wall_level[lane], record.slot[lane], record.kind[lane], waits(k),
+        std::bit_cast<TouchRecord>(record.touch[lane]), record.free_overlap[lane]};
 }
 
 RollingRow TileContacts::rolling(std::size_t k) const

@@ -4,14 +4,15 @@
 #include "core/contacts/contact.hpp"
 #include "core/packs/contact_pack.hpp"
 
+#include <bit>
 #include <iterator>
 #include <vector>
 
 namespace talus
 {
 
-/// The lanes of packs that hold a contact.
-class LanesInUse
+/// The lanes of packs that hold a contact of this step.
+class LanesInProblem
 {
 public:
     class Iterator
@@ -24,14 +25,15 @@ public:
         using iterator_category = std::forward_iterator_tag;
 
         Iterator() = default;
-        Iterator(const ContactPack* packs, std::size_t lane, std::size_t end) : packs_(packs), lane_(lane), end_(end)
+        Iterator(const RecordPack* records, std::size_t pack, std::size_t end)
+            : records_(records), pack_(pack), end_(end), lanes_(pack < end ? records[pack].in_problem : 0)
         {
             skip();
         }
-        std::size_t operator*() const { return lane_; }
+        std::size_t operator*() const { return pack_size * pack_ + static_cast<std::size_t>(std::countr_zero(lanes_)); }
         Iterator& operator++()
         {
-            ++lane_;
+            lanes_ &= lanes_ - 1;
             skip();
             return *this;
         }
@@ -41,65 +43,77 @@ public:
             ++*this;
             return before;
         }
-        bool operator==(const Iterator& other) const { return lane_ == other.lane_; }
+        bool operator==(const Iterator& other) const { return pack_ == other.pack_ && lanes_ == other.lanes_; }
 
     private:
-        const ContactPack* packs_ = nullptr;
-        std::size_t lane_ = 0, end_ = 0;
+        const RecordPack* records_ = nullptr;
+        std::size_t pack_ = 0, end_ = 0;
+        unsigned lanes_ = 0; ///< of the pack that are left
 
-        /// To the next pack, where the lanes that are left are empty.
+        /// To the next pack that has one.
         void skip()
         {
-            while (lane_ < end_ && packs_[lane_ / pack_size].a[lane_ % pack_size] < 0)
-                lane_ += pack_size - lane_ % pack_size;
+            while (lanes_ == 0 && pack_ < end_)
+                if (++pack_ < end_) lanes_ = records_[pack_].in_problem;
         }
     };
 
-    LanesInUse(const ContactPack* packs, std::size_t count) : packs_(packs), end_(pack_size * count) {}
-    Iterator begin() const { return {packs_, 0, end_}; }
-    Iterator end() const { return {packs_, end_, end_}; }
+    LanesInProblem(const RecordPack* records, std::size_t packs) : records_(records), packs_(packs) {}
+    Iterator begin() const { return {records_, 0, packs_}; }
+    Iterator end() const { return {records_, packs_, packs_}; }
 
 private:
-    const ContactPack* packs_;
-    std::size_t end_;
+    const RecordPack* records_;
+    std::size_t packs_;
 };
 
-/// The contacts of one kind in one tile, in packs. Contact k is lane k mod 8 of pack k / 8; not all lanes are in use.
+/// The contacts of one kind in one tile, in packs. Contact k is lane k mod 8 of pack k / 8; not all lanes hold one.
 class TileContacts
 {
 public:
-    std::vector<ContactGeometry> geometry; ///< by contact
-
     /// Begins anew. @param rolling, moving_walls what the scene needs besides
-    void clear(bool rolling, bool moving_walls);
+    /// @param made_whole all lanes of a pack will be made at once, so that it need not be empty before
+    void clear(bool rolling, bool moving_walls, bool made_whole = false);
     /// Adds a pack without contacts.
     void append_pack();
     /// Adds a contact behind the last one, whatever spheres it shares: for contacts that are not swept by packs.
     std::size_t append();
+    /// A contact of this step.
     void set(std::size_t k, const Contact& contact, const ContactTerms& terms, const ContactGeometry& own);
+    /// Two spheres get lane k. The rest of it is not written: the whole pack is to be made.
+    void place_pair(std::size_t k, std::int32_t sphere_a, std::int32_t sphere_b, std::uint32_t slot);
+    /// The same; what is known of it besides stays.
+    void set(std::size_t k, const Contact& contact, const ContactTerms& terms);
     /// Contact k becomes what stands in a lane of another pack.
-    void copy(std::size_t k, const ContactPack& from, int lane, const ContactGeometry& own);
-    /// Takes contact k away; the last one of its pack takes its place.
-    void remove(std::size_t k);
+    void copy(std::size_t k, const ContactPack& from, std::size_t lane, const ContactGeometry& own);
+    /// Takes contact k out of the problem of this step.
+    void take_out(std::size_t k);
     void set_rolling(std::size_t k, const RollingRow& row);
     void set_wall(std::size_t k, const WallRow& row);
+    void set_touch(std::size_t k, TouchRecord touch)
+    {
+        record_at(k).touch[k % pack_size] = std::bit_cast<std::uint8_t>(touch);
+    }
     void set_impulse(std::size_t k, const Vec3& impulse) { put(packs_[k / pack_size].impulse, k % pack_size, impulse); }
     void set_rolling_impulse(std::size_t k, const Vec3& impulse)
     {
         put(rolling_[k / pack_size].impulse, k % pack_size, impulse);
     }
 
-    std::size_t packs() const { return packs_.size(); }
+    std::size_t packs() const { return count_; }
     const ContactPack& pack(std::size_t p) const { return packs_[p]; }
+    ContactPack& pack(std::size_t p) { return packs_[p]; }
+    const RecordPack& record(std::size_t p) const { return records_[p]; }
+    RecordPack& record(std::size_t p) { return records_[p]; }
     PackSpan span();
 
     bool has_rolling() const { return with_rolling_; }
     bool has_moving_walls() const { return with_moving_walls_; }
     /// The indices of the contacts, in the order in which they are swept.
-    LanesInUse indices() const { return {packs_.data(), packs_.size()}; }
+    LanesInProblem indices() const { return {records_.data(), count_}; }
     std::size_t count() const
     {
-        const LanesInUse all = indices();
+        const LanesInProblem all = indices();
         return static_cast<std::size_t>(std::distance(all.begin(), all.end()));
     }
     std::int32_t a(std::size_t k) const { return packs_[k / pack_size].a[k % pack_size]; }
@@ -109,15 +123,23 @@ public:
     double friction(std::size_t k) const { return packs_[k / pack_size].friction[k % pack_size]; }
     Contact contact(std::size_t k) const;
     ContactTerms terms(std::size_t k) const;
+    ContactGeometry geometry(std::size_t k) const;
+    ContactKind kind(std::size_t k) const { return records_[k / pack_size].kind[k % pack_size]; }
+    bool waits(std::size_t k) const { return (records_[k / pack_size].waits >> k % pack_size & 1U) != 0; }
     RollingRow rolling(std::size_t k) const;
     WallRow wall(std::size_t k) const;
     Vec3 rolling_impulse(std::size_t k) const { return get(rolling_[k / pack_size].impulse, k % pack_size); }
 
 private:
+    // Room for as many packs as there ever were: to give them back and take them again costs more than to make them.
+    std::size_t count_ = 0; ///< of the packs in use
     std::vector<ContactPack> packs_;
+    std::vector<RecordPack> records_;
     std::vector<RollingPack> rolling_; ///< empty unless the scene has rolling resistance
     std::vector<WallPack> wall_;       ///< empty unless walls move, and between spheres
-    bool with_rolling_ = false, with_moving_walls_ = false;
+    bool with_rolling_ = false, with_moving_walls_ = false, made_whole_ = false;
+
+    RecordPack& record_at(std::size_t k) { return records_[k / pack_size]; }
 
     static Vec3 get(const double (&rows)[3][pack_size], std::size_t lane)
     {

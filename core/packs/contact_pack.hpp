@@ -14,7 +14,9 @@ inline constexpr int pack_size = 8;
 enum class ContactKind : std::uint8_t { resting, open, impact };
 
 /// Eight contacts, no two of which share a sphere, so that their order does not matter: all that a sweep streams, lane
-/// beside lane, 112 B a contact. They are filled from lane 0 on; a lane that is not in use has a = b = −1, and zeros.
+/// beside lane, 112 B a contact. They are filled from lane 0 on; a lane that is empty has a = b = −1, and zeros. A lane
+/// that holds two spheres which do not touch has zeros for its numbers from `impulse` on, but for μ: a sweep changes
+/// nothing by it.
 struct alignas(64) ContactPack {
     std::int32_t a[pack_size];          ///< sphere
     std::int32_t b[pack_size];          ///< sphere or, in packs of wall contacts, wall
@@ -29,6 +31,20 @@ struct alignas(64) ContactPack {
     double inverse_mass_sum[pack_size]; ///< W [1/kg]
 };
 static_assert(sizeof(ContactPack) == 896);
+
+/// What a step knows of them besides their solve, and what they hand on to the next one.
+struct alignas(64) RecordPack {
+    double gap[pack_size];         ///< g at the beginning of the step [m]; < 0 is overlap
+    double wall_level[pack_size];  ///< n·x at which the gap to the wall is zero after the step [m]; at walls
+    float free_overlap[pack_size]; ///< f: what of the overlap is no spring [m]
+    std::uint32_t slot[pack_size]; ///< where it is kept what it carries
+    ContactKind kind[pack_size];
+    std::uint8_t touch[pack_size]; ///< TouchRecord: what is known from the steps before
+    std::uint8_t waits = 0;        ///< lanes, as bits: left out of the problem where one of the spheres is struck
+    std::uint8_t in_problem = 0;   ///< lanes, as bits: contacts of this step
+
+    bool holds(std::size_t lane) const { return (in_problem >> lane & 1U) != 0; }
+};
 
 /// Their rolling rows.
 struct alignas(64) RollingPack {

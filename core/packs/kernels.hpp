@@ -36,15 +36,20 @@ struct SweepKernel {
 /// What makes contacts of touches.
 struct TouchKernel {
     /// Lists the candidates from `first` on, before `last`, whose balls meet or that were loaded. Returns how many.
-    /// @param pairs of spheres, by candidate; @param loaded by candidate, 0 for no; @param near has room for all
-    std::size_t (*find_near)(const std::int32_t* pairs, const std::uint8_t* loaded, std::uint32_t first,
-        std::uint32_t last, const ReachBall* balls, const StepConstants& step, std::uint32_t* near) = nullptr;
-    /// Finds how the spheres a and b of these touches lie to each other, and makes their contacts.
-    /// @param motion as for sweeps
-    void (*touch_spheres)(
-        TouchPack& touch, const ReachBall* balls, const double* motion, const StepConstants& step) = nullptr;
+    /// @param pairs of spheres, by candidate, which is their slot; @param near has room for all and one more
+    std::size_t (*find_near)(const std::int32_t* pairs, const SphereNumbers& spheres, std::uint32_t first,
+        std::uint32_t last, const StepConstants& step, std::uint32_t* near) = nullptr;
+    /// Finds how the spheres a and b of a pack lie to each other, and makes their contacts with what their slots carry.
+    /// A lane whose spheres do not touch is left out of the problem, and has nothing to hand on.
+    TouchMarks (*touch_spheres)(ContactPack& contact, RecordPack& record, TouchSums& sums, const SphereNumbers& spheres,
+        const StepConstants& step) = nullptr;
     /// Makes contacts of touches that have been found.
-    void (*make_contacts)(TouchPack& touch, const StepConstants& step) = nullptr;
+    void (*make_contacts)(ContactPack& contact, TouchPack& touch, const StepConstants& step) = nullptr;
+    /// Stores what the contacts of a pack between spheres hand on. Touch records of those that overlap by more than
+    /// `deep` [m] stay as they are, and their lanes are told. Returns the worst |λ_t| − μ λ_n [N s], at least 0.
+    /// @param carried as in SphereNumbers
+    double (*hand_on)(
+        const ContactPack& contact, RecordPack& record, double deep, unsigned& deep_lanes, double* carried) = nullptr;
 };
 
 /// The kernels for one instruction set, the sweep's by Rows::index.

@@ -16,6 +16,13 @@ namespace talus::packs
 template <int width> struct Register {
     typedef double Numbers __attribute__((vector_size(width * sizeof(double)), may_alias));
     typedef std::int64_t Flags __attribute__((vector_size(width * sizeof(double)), may_alias));
+    // In memory they may begin anywhere. (A memcpy moves 16 bytes at a time, and what is stored in halves has to reach
+    // the cache before it can be read as a whole: a quarter of a sweep's time.)
+    typedef Numbers StoredNumbers __attribute__((aligned(8)));
+    typedef Flags StoredFlags __attribute__((aligned(8)));
+    typedef float Floats __attribute__((vector_size(width * sizeof(float))));
+    typedef std::uint32_t Words __attribute__((vector_size(width * sizeof(float))));
+    typedef std::uint8_t Bytes __attribute__((vector_size(width)));
 };
 /// One number for each of `width` contacts.
 template <int width> using Numbers = typename Register<width>::Numbers;
@@ -24,26 +31,22 @@ template <int width> using Flags = typename Register<width>::Flags;
 
 template <int width> [[gnu::always_inline]] inline Numbers<width> load(const double* from)
 {
-    Numbers<width> numbers;
-    __builtin_memcpy(&numbers, from, sizeof numbers);
-    return numbers;
+    return *reinterpret_cast<const typename Register<width>::StoredNumbers*>(from);
 }
 
 template <int width> [[gnu::always_inline]] inline Flags<width> load_flags(const std::int64_t* from)
 {
-    Flags<width> flags;
-    __builtin_memcpy(&flags, from, sizeof flags);
-    return flags;
+    return *reinterpret_cast<const typename Register<width>::StoredFlags*>(from);
 }
 
 template <int width> [[gnu::always_inline]] inline void store(double* to, const Numbers<width>& numbers)
 {
-    __builtin_memcpy(to, &numbers, sizeof numbers);
+    *reinterpret_cast<typename Register<width>::StoredNumbers*>(to) = numbers;
 }
 
 template <int width> [[gnu::always_inline]] inline void store(std::int64_t* to, const Flags<width>& flags)
 {
-    __builtin_memcpy(to, &flags, sizeof flags);
+    *reinterpret_cast<typename Register<width>::StoredFlags*>(to) = flags;
 }
 
 template <int width> [[gnu::always_inline]] inline Numbers<width> root(const Numbers<width>& square)
@@ -58,6 +61,33 @@ template <int width> [[gnu::always_inline]] inline bool any(const Flags<width>& 
     bool is = false;
     for (int lane = 0; lane < width; ++lane) is |= flags[lane] != 0;
     return is;
+}
+
+/// A bit for each lane.
+template <int width> [[gnu::always_inline]] inline unsigned bits(const Flags<width>& flags)
+{
+    unsigned all = 0;
+    for (int lane = 0; lane < width; ++lane) all |= static_cast<unsigned>(flags[lane] & 1) << lane;
+    return all;
+}
+
+/// Bytes as wide numbers, and back.
+template <int width> [[gnu::always_inline]] inline Flags<width> widened(const std::uint8_t* from)
+{
+    typename Register<width>::Bytes bytes;
+    __builtin_memcpy(&bytes, from, sizeof bytes);
+    return __builtin_convertvector(bytes, Flags<width>);
+}
+template <int width> [[gnu::always_inline]] inline void narrow(std::uint8_t* to, const Flags<width>& flags)
+{
+    const auto bytes = __builtin_convertvector(flags, typename Register<width>::Bytes);
+    __builtin_memcpy(to, &bytes, sizeof bytes);
+}
+
+template <int width> [[gnu::always_inline]] inline void store_floats(float* to, const Numbers<width>& numbers)
+{
+    const auto floats = __builtin_convertvector(numbers, typename Register<width>::Floats);
+    __builtin_memcpy(to, &floats, sizeof floats);
 }
 
 template <int width> struct Vector {
@@ -96,6 +126,7 @@ template <int width, int stride, int... i>
 /// Rows become columns.
 template <int width, int stride = width / 2> [[gnu::always_inline]] inline void transpose(Numbers<width>* rows)
 {
+#pragma GCC unroll 8
     for (int row = 0; row < width; ++row)
         if (!(row & stride))
             exchange<width, stride>(rows[row], rows[row + stride], std::make_integer_sequence<int, width>{});
@@ -105,7 +136,9 @@ template <int width, int stride = width / 2> [[gnu::always_inline]] inline void 
 /// Records of eight numbers, number beside number.
 template <int width> [[gnu::always_inline]] inline void gather(Numbers<width>* numbers, const double* const* records)
 {
+#pragma GCC unroll 4
     for (int block = 0; block < pack_size; block += width) {
+#pragma GCC unroll 8
         for (int lane = 0; lane < width; ++lane) numbers[block + lane] = load<width>(records[lane] + block);
         transpose<width>(numbers + block);
     }

@@ -21,6 +21,7 @@ template <int width, bool full> struct Spheres {
     [[gnu::always_inline]] void gather(const std::int32_t* sphere, const double* motion)
     {
         const double* from[width];
+#pragma GCC unroll 8
         for (int lane = 0; lane < width; ++lane)
             from[lane] =
                 full || sphere[lane] >= 0 ? motion + std::int64_t{motion_size} * sphere[lane] : no_motion<width>;
@@ -28,17 +29,31 @@ template <int width, bool full> struct Spheres {
     }
     [[gnu::always_inline]] void scatter(const std::int32_t* sphere, double* motion)
     {
+#pragma GCC unroll 4
         for (int block = 0; block < motion_size; block += width) {
             transpose<width>(number + block);
+#pragma GCC unroll 8
             for (int lane = 0; lane < width; ++lane)
                 if (full || sphere[lane] >= 0)
                     store<width>(motion + std::int64_t{motion_size} * sphere[lane] + block, number[block + lane]);
         }
     }
-    [[gnu::always_inline]] Vector<width> velocity() const { return {number[0], number[1], number[2]}; }
-    [[gnu::always_inline]] Numbers<width> inverse_mass() const { return number[3]; }
-    [[gnu::always_inline]] Vector<width> rim_velocity() const { return {number[4], number[5], number[6]}; }
-    [[gnu::always_inline]] Numbers<width> radius() const { return number[7]; }
+    [[gnu::always_inline]] Vector<width> velocity() const
+    {
+        return {number[0], number[1], number[2]};
+    }
+    [[gnu::always_inline]] Numbers<width> inverse_mass() const
+    {
+        return number[3];
+    }
+    [[gnu::always_inline]] Vector<width> rim_velocity() const
+    {
+        return {number[4], number[5], number[6]};
+    }
+    [[gnu::always_inline]] Numbers<width> radius() const
+    {
+        return number[7];
+    }
     [[gnu::always_inline]] void set_velocity(const Vector<width>& v)
     {
         number[0] = v.x;

@@ -68,9 +68,11 @@ template <int width>
 }
 
 template <int width>
-std::size_t find_near(const std::int32_t* pairs, const std::uint8_t* loaded, std::uint32_t first, std::uint32_t last,
-    const ReachBall* balls, const StepConstants& step, std::uint32_t* near)
+std::size_t find_near(const std::int32_t* pairs, const SphereNumbers& spheres, std::uint32_t first, std::uint32_t last,
+    const StepConstants& step, std::uint32_t* near)
 {
+    constexpr std::size_t carried_size = 32, touch_byte = 28; // CarriedContact
+    const auto* const touch = reinterpret_cast<const std::uint8_t*>(spheres.carried) + touch_byte;
     std::size_t count = 0;
     for (std::uint32_t k = first; k < last; k += width) {
         const int pairs_left = last - k < width ? static_cast<int>(last - k) : width;
@@ -80,34 +82,39 @@ std::size_t find_near(const std::int32_t* pairs, const std::uint8_t* loaded, std
             a[lane] = pairs[2 * pair];
             b[lane] = pairs[2 * pair + 1];
         }
-        const Balls<width> ball_a(a, balls), ball_b(b, balls);
+        const Balls<width> ball_a(a, spheres.balls), ball_b(b, spheres.balls);
         const Vector<width> apart = across<width>(ball_a, ball_b, step);
         const Numbers<width> radii = ball_a.radius + ball_b.radius;
         const Flags<width> meet = apart.dot(apart) <= radii * radii;
         for (int lane = 0; lane < pairs_left; ++lane) {
             near[count] = k + static_cast<std::uint32_t>(lane); // no branch: which are near is no pattern
-            count += static_cast<std::size_t>((meet[lane] != 0) | (loaded[k + lane] != 0));
+            const bool loaded = touch[carried_size * (k + static_cast<std::uint32_t>(lane))] != 0;
+            count += static_cast<std::size_t>((meet[lane] != 0) | loaded);
         }
     }
     return count;
 }
 
-/// How the spheres a and b of these touches lie to each other and move.
+/// How the spheres a and b of these touches lie to each other and move. Returns which are within reach.
 template <int width>
-[[gnu::always_inline]] inline void detect(
-    TouchPack& touch, int first, const ReachBall* balls, const double* motion, const StepConstants& step)
+[[gnu::always_inline]] inline Flags<width> detect(ContactPack& contact, TouchPack& touch, int first,
+    const ReachBall* balls, const double* motion, const StepConstants& step)
 {
-    ContactPack& contact = touch.contact;
+    std::int32_t sphere_a[width], sphere_b[width];
     const double *motion_a[width], *motion_b[width];
+    Flags<width> empty = {};
     for (int lane = 0; lane < width; ++lane) {
-        motion_a[lane] = motion + std::int64_t{pack_size} * contact.a[first + lane];
-        motion_b[lane] = motion + std::int64_t{pack_size} * contact.b[first + lane];
+        const bool is_empty = contact.a[first + lane] < 0;
+        sphere_a[lane] = is_empty ? 0 : contact.a[first + lane];
+        sphere_b[lane] = is_empty ? 0 : contact.b[first + lane];
+        motion_a[lane] = motion + std::int64_t{pack_size} * sphere_a[lane];
+        motion_b[lane] = motion + std::int64_t{pack_size} * sphere_b[lane];
+        empty[lane] = -static_cast<std::int64_t>(is_empty);
     }
     Numbers<width> a[pack_size], b[pack_size];
     gather<width>(a, motion_a);
     gather<width>(b, motion_b);
-    const Vector<width> apart =
-        across<width>(Balls<width>(contact.a + first, balls), Balls<width>(contact.b + first, balls), step);
+    const Vector<width> apart = across<width>(Balls<width>(sphere_a, balls), Balls<width>(sphere_b, balls), step);
     const Vector<width> velocity{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
     const Numbers<width> radii = a[7] + b[7], one = radii * 0.0 + 1.0;
     const Numbers<width> square = apart.dot(apart), distance = root<width>(square);
@@ -125,10 +132,10 @@ template <int width>
     store<width>(touch.u_n_ahead + first, u_n); // gravity is the same for both
     store<width>(touch.u_n_before + first, u_n);
     store<width>(touch.u_n_turned + first, Numbers<width>{}); // they are convex: it parts them
-    store<width>(touch.within_reach + first, within);
     if (step.restitution)
         store<width>(touch.closes + first, closing_time<Numbers<width>>(-apart.dot(velocity), velocity.dot(velocity),
                                                square - radii * radii, root<width>));
+    return within & ~empty;
 }
 
 /// The impulse carried into a contact: turned into the new frame and cut back to the cone, nothing for an impact.
@@ -162,11 +169,12 @@ template <class N>
 
 /// Notes what does not close by itself, or opens. What an impact elsewhere closes within this step is an impact of its
 /// own in the next one: such a contact waits beside one. Spheres that touch without a load count as apart. In a split
-/// step nothing waits: walls must hold what is thrown at them. And spheres that miss each other: the law of their gap
-/// along the normal of now would brake them.
+/// step nothing waits: walls must hold what is thrown at them. Left out at once are spheres that miss each other: the
+/// law of their gap along the normal of now would brake them.
 /// @param is_free no impact, and it bears nothing
+/// Returns what is left out at once.
 template <int width>
-[[gnu::always_inline]] inline void leave_out(
+[[gnu::always_inline]] inline Flags<width> leave_out(
     TouchPack& touch, int first, const Numbers<width>& closes, const Flags<width>& is_free, const StepConstants& step)
 {
     const Numbers<width> gap = load<width>(touch.gap + first), none = {};
@@ -175,16 +183,16 @@ template <int width>
     const Flags<width> apart = misses | ((gap <= 0.0) & (at_end >= none - step.touching));
     const Flags<width> may = step.law.parts > 1.0 ? Flags<width>{} : is_free;
     store<width>(touch.waits + first, may & apart);
-    store<width>(touch.passes_by + first, may & misses & (at_end < 0.0));
+    return may & misses & (at_end < 0.0);
 }
 
-/// The law of these touches, and the numbers of their contacts' solve.
+/// The law of these touches, and the numbers of their contacts' solve: zeros for those that are left out.
 template <int width>
-[[gnu::always_inline]] inline void apply_law(TouchPack& touch, int first, const StepConstants& step)
+[[gnu::always_inline]] inline void apply_law(
+    ContactPack& contact, TouchPack& touch, int first, const Flags<width>& within_reach, const StepConstants& step)
 {
     using N = Numbers<width>;
     using F = Flags<width>;
-    ContactPack& contact = touch.contact;
     const N none = {};
     const auto number = [&](const double* row) __attribute__((always_inline))
     {
@@ -207,39 +215,204 @@ template <int width>
             number(touch.stiffness), load_flags<width>(touch.jammed + first), number(touch.u_n_turned)},
         step.law);
 
-    warm.store(contact.impulse, first);
+    const F bears = (restitution == 0.0) | loaded; // what an impact overlaps is no spring
+    const F in_problem = within_reach & ~leave_out<width>(touch, first, closes, (!impact) & (!bears), step);
+    const auto put = [&](double* row, const N& numbers) __attribute__((always_inline))
+    {
+        store<width>(row + first, in_problem ? numbers : none);
+    };
+    put(contact.impulse[0], warm.x);
+    put(contact.impulse[1], warm.y);
+    put(contact.impulse[2], warm.z);
     const N arm_scale = number(contact.arm_scale);
-    store<width>(contact.target + first, law.target);
-    store<width>(contact.compliance + first, law.compliance);
-    store<width>(contact.normal_mass + first, 1.0 / (w + law.compliance));
-    store<width>(contact.tangent_mass + first, 1.0 / (w * (1.0 + step.inverse_inertia * arm_scale * arm_scale)));
+    put(contact.target, law.target);
+    put(contact.compliance, law.compliance);
+    put(contact.normal_mass, 1.0 / (w + law.compliance));
+    put(contact.tangent_mass, 1.0 / (w * (1.0 + step.inverse_inertia * arm_scale * arm_scale)));
+    put(contact.inverse_mass_sum, w);
+    put(touch.stored_energy, bears ? stored_energy<N>(spring, law, step) : none);
     store<width>(touch.free_overlap + first, unsprung);
+    store<width>(touch.in_problem + first, in_problem);
     store<width>(touch.impact + first, impact);
     store<width>(touch.open + first, is_open);
     store<width>(touch.carries + first, warm.dot(normal) > 0.0);
-
-    const F bears = (restitution == 0.0) | loaded; // what an impact overlaps is no spring
-    store<width>(touch.stored_energy + first, bears ? stored_energy<N>(spring, law, step) : none);
-    leave_out<width>(touch, first, closes, (!impact) & (!bears), step);
 }
 
-template <int width> void make_contacts(TouchPack& touch, const StepConstants& step)
+template <int width> void make_contacts(ContactPack& contact, TouchPack& touch, const StepConstants& step)
 {
-    for (int first = 0; first < pack_size; first += width) apply_law<width>(touch, first, step);
+    for (int first = 0; first < pack_size; first += width)
+        apply_law<width>(contact, touch, first, ~Flags<width>{}, step);
+}
+
+/// Records of four numbers with which a slot keeps what it carries: λ, and f beside the TouchRecord in one number.
+template <int width> struct CarriedRecords {
+    static constexpr int touch_bits = 32; ///< behind those of f
+
+    Vector<width> impulse;
+    Numbers<width> free_overlap;
+    Flags<width> touch;
+
+    [[gnu::always_inline]] static CarriedRecords gather(const std::uint32_t* slot, const double* carried)
+    {
+        const double* records[width];
+        for (int lane = 0; lane < width; ++lane) records[lane] = carried + std::size_t{4} * slot[lane];
+        Numbers<width> numbers[4];
+        gather_four<width>(numbers, records);
+        Flags<width> both;
+        __builtin_memcpy(&both, &numbers[3], sizeof both);
+        const auto low = __builtin_convertvector(both, typename Register<width>::Words);
+        typename Register<width>::Floats overlap;
+        __builtin_memcpy(&overlap, &low, sizeof overlap);
+        return {{numbers[0], numbers[1], numbers[2]}, __builtin_convertvector(overlap, Numbers<width>),
+            (both >> touch_bits) & 255};
+    }
+};
+
+/// What the spheres' materials and slots say of these touches.
+template <int width>
+[[gnu::always_inline]] inline void recall(ContactPack& contact, TouchPack& touch, RecordPack& record, int first,
+    const SphereNumbers& spheres, const StepConstants& step)
+{
+    const double* laws[width];
+    std::uint32_t slot[width];
+    for (int lane = 0; lane < width; ++lane) {
+        const bool is_empty = contact.a[first + lane] < 0;
+        const std::int32_t a = is_empty ? 0 : contact.a[first + lane], b = is_empty ? 0 : contact.b[first + lane];
+        laws[lane] = spheres.laws + 4 * (spheres.material[a] * spheres.materials + spheres.material[b]);
+        slot[lane] = is_empty ? record.slot[0] : record.slot[first + lane];
+    }
+    Numbers<width> law[4];
+    gather_four<width>(law, laws);
+    store<width>(contact.friction + first, law[0]);
+    store<width>(touch.restitution + first, law[1]);
+    store<width>(touch.stiffness + first, law[3]);
+    const auto carried = CarriedRecords<width>::gather(slot, spheres.carried);
+    carried.impulse.store(touch.carried, first);
+    store<width>(touch.free_overlap + first, carried.free_overlap);
+    store<width>(touch.loaded + first, carried.touch > std::int64_t{0});
+    store<width>(touch.jammed + first, carried.touch > std::int64_t{step.jam_steps});
+    narrow<width>(record.touch + first, carried.touch);
+}
+
+/// Notes what has become of these touches, those within reach.
+template <int width>
+[[gnu::always_inline]] inline void take_down(
+    RecordPack& record, TouchSums& sums, const TouchPack& touch, int first, const Flags<width>& within_reach)
+{
+    const Numbers<width> gap = load<width>(touch.gap + first), none = {};
+    const Flags<width> impact = load_flags<width>(touch.impact + first), open = load_flags<width>(touch.open + first);
+    const Flags<width> in_problem = load_flags<width>(touch.in_problem + first);
+    const Flags<width> overlaps = within_reach & (gap < 0.0);
+    const auto add = [&](double* sum, const Numbers<width>& part) __attribute__((always_inline))
+    {
+        store<width>(sum + first, load<width>(sum + first) + part);
+    };
+    add(sums.overlap, overlaps ? -gap : none);
+    add(sums.stored_energy, load<width>(touch.stored_energy + first));
+    const Numbers<width> worst = load<width>(sums.worst_overlap + first);
+    store<width>(sums.worst_overlap + first, larger<Numbers<width>>(worst, overlaps ? -gap : none));
+    store<width>(sums.overlapping + first, load_flags<width>(sums.overlapping + first) - overlaps);
+
+    store<width>(record.gap + first, gap);
+    store_floats<width>(record.free_overlap + first, load<width>(touch.free_overlap + first));
+    narrow<width>(reinterpret_cast<std::uint8_t*>(record.kind) + first, in_problem & ((impact & 2) | (open & 1)));
+    narrow<width>(record.touch + first, within_reach & widened<width>(record.touch + first));
+    record.in_problem |= static_cast<std::uint8_t>(bits<width>(in_problem) << first);
+    record.waits |=
+        static_cast<std::uint8_t>(bits<width>(in_problem & load_flags<width>(touch.waits + first)) << first);
 }
 
 template <int width>
-void touch_spheres(TouchPack& touch, const ReachBall* balls, const double* motion, const StepConstants& step)
+TouchMarks touch_spheres(
+    ContactPack& contact, RecordPack& record, TouchSums& sums, const SphereNumbers& spheres, const StepConstants& step)
 {
+    TouchPack touch;
+    TouchMarks marks;
+    record.in_problem = record.waits = 0;
+#pragma GCC unroll 4
     for (int first = 0; first < pack_size; first += width) {
-        detect<width>(touch, first, balls, motion, step);
-        apply_law<width>(touch, first, step);
+        recall<width>(contact, touch, record, first, spheres, step);
+        const Flags<width> within_reach = detect<width>(contact, touch, first, spheres.balls, spheres.motion, step);
+        apply_law<width>(contact, touch, first, within_reach, step);
+        take_down<width>(record, sums, touch, first, within_reach);
+        const Flags<width> in_problem = load_flags<width>(touch.in_problem + first);
+        marks.impact |= bits<width>(in_problem & load_flags<width>(touch.impact + first)) << first;
+        marks.carries |= bits<width>(in_problem & load_flags<width>(touch.carries + first)) << first;
     }
+    return marks;
+}
+
+/// Puts records of four numbers where they belong, those of lanes that are not empty.
+template <int width> [[gnu::always_inline]] inline void scatter_four(Numbers<width>* numbers, double* const* records)
+{
+    constexpr auto lanes = std::make_integer_sequence<int, width>{};
+    if constexpr (width == 2) {
+        for (int block = 0; block < 4; block += width) {
+            transpose<width>(numbers + block);
+            for (int lane = 0; lane < width; ++lane)
+                if (records[lane]) store<width>(records[lane] + block, numbers[block + lane]);
+        }
+    } else {
+        exchange<width, 1>(numbers[0], numbers[1], lanes);
+        exchange<width, 1>(numbers[2], numbers[3], lanes);
+        exchange<width, 2>(numbers[0], numbers[2], lanes);
+        exchange<width, 2>(numbers[1], numbers[3], lanes);
+#pragma GCC unroll 4
+        for (int row = 0; row < 4; ++row) {
+            if constexpr (width == 8) {
+                if (records[row])
+                    store<4>(records[row], __builtin_shufflevector(numbers[row], numbers[row], 0, 1, 2, 3));
+                if (records[row + 4])
+                    store<4>(records[row + 4], __builtin_shufflevector(numbers[row], numbers[row], 4, 5, 6, 7));
+            } else if (records[row])
+                store<width>(records[row], numbers[row]);
+        }
+    }
+}
+
+template <int width>
+double hand_on(const ContactPack& contact, RecordPack& record, double deep, unsigned& deep_lanes, double* carried)
+{
+    double worst = 0.0;
+    deep_lanes = 0;
+#pragma GCC unroll 4
+    for (int first = 0; first < pack_size; first += width) {
+        const Vector<width> normal = Vector<width>::load(contact.normal, first);
+        const Vector<width> impulse = Vector<width>::load(contact.impulse, first);
+        const Numbers<width> along = impulse.dot(normal), none = {};
+        const Vector<width> tangent = impulse - normal * along;
+        const Numbers<width> excess = root<width>(tangent.dot(tangent)) - load<width>(contact.friction + first) * along;
+        for (int lane = 0; lane < width; ++lane) worst = worst < excess[lane] ? excess[lane] : worst;
+
+        const Flags<width> kind = widened<width>(reinterpret_cast<const std::uint8_t*>(record.kind) + first);
+        const Flags<width> keeps = kind != std::int64_t{2}; // an impact hands nothing on
+        const Flags<width> is_deep = -load<width>(record.gap + first) > none + deep;
+        const Flags<width> loaded = keeps & (along > 0.0) & 1;
+        const Flags<width> touch = is_deep ? widened<width>(record.touch + first) : loaded;
+        narrow<width>(record.touch + first, touch);
+        deep_lanes |= bits<width>(is_deep) << first;
+
+        typename Register<width>::Floats overlap;
+        __builtin_memcpy(&overlap, record.free_overlap + first, sizeof overlap);
+        typename Register<width>::Words low;
+        __builtin_memcpy(&low, &overlap, sizeof low);
+        const Flags<width> both =
+            __builtin_convertvector(low, Flags<width>) | (touch << CarriedRecords<width>::touch_bits);
+        Numbers<width> numbers[4] = {keeps ? impulse.x : none, keeps ? impulse.y : none, keeps ? impulse.z : none};
+        __builtin_memcpy(&numbers[3], &both, sizeof both);
+        double* records[width];
+        for (int lane = 0; lane < width; ++lane)
+            records[lane] =
+                contact.a[first + lane] < 0 ? nullptr : carried + std::size_t{4} * record.slot[first + lane];
+        scatter_four<width>(numbers, records);
+    }
+    deep_lanes &= record.in_problem;
+    return worst;
 }
 
 template <int width> constexpr TouchKernel touches()
 {
-    return {find_near<width>, touch_spheres<width>, make_contacts<width>};
+    return {find_near<width>, touch_spheres<width>, make_contacts<width>, hand_on<width>};
 }
 
 } // namespace talus::packs

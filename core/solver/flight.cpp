@@ -5,6 +5,7 @@
 #include "core/solver/tile_crew.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace talus
@@ -44,10 +45,10 @@ public:
     /// Notes what struck spheres meet, and takes what waits for an impact out of the problem, but in a bed under load.
     void survey_walls(TileContacts& walls)
     {
-        for (std::size_t k = pack_size * walls.packs(); k-- > 0;) {
-            if (walls.a(k) < 0 || !struck_[walls.a(k)]) continue;
-            if (walls.geometry[k].waits && !(is_rigid() && loaded_[walls.a(k)]))
-                walls.remove(k);
+        for (const std::size_t k : walls.indices()) {
+            if (!struck_[walls.a(k)]) continue;
+            if (walls.waits(k) && !(is_rigid() && loaded_[walls.a(k)]))
+                walls.take_out(k);
             else
                 of[walls.a(k)].held = true;
         }
@@ -55,15 +56,9 @@ public:
 
     void survey_spheres(TileContacts& spheres, std::size_t tile)
     {
-        for (std::size_t p = spheres.packs(); p-- > 0;) {
-            if (!any_struck(spheres.pack(p))) continue;
-            const std::size_t first = pack_size * p;
-            for (std::size_t k = first + pack_size; k-- > first;) survey(spheres, k);
-            for (std::size_t k = first + pack_size; k-- > first;)
-                if (spheres.a(k) >= 0 && spheres.geometry[k].kind == ContactKind::impact)
-                    impacts[tile].push_back(static_cast<std::uint32_t>(k));
-        }
-        std::ranges::reverse(impacts[tile]); // the last ones came first, since contacts are taken away from the end
+        for (std::size_t p = 0; p < spheres.packs(); ++p)
+            for (unsigned lanes = struck_lanes(spheres, p); lanes != 0; lanes &= lanes - 1)
+                survey(spheres, pack_size * p + static_cast<std::size_t>(std::countr_zero(lanes)), tile);
     }
 
     /// Keeps those that meet one other that meets none but them. Moved by one instant they keep their potential energy,
@@ -88,23 +83,23 @@ private:
     const Model& model_;
     double h_;
 
-    bool any_struck(const ContactPack& pack) const
+    /// The lanes of contacts of which a sphere is struck, as bits.
+    unsigned struck_lanes(const TileContacts& spheres, std::size_t p) const
     {
-        bool any = false;
-        for (int lane = 0; lane < pack_size; ++lane)
-            any |= pack.a[lane] >= 0 && (struck_[pack.a[lane]] | struck_[pack.b[lane]]);
-        return any;
+        const ContactPack& pack = spheres.pack(p);
+        unsigned lanes = 0;
+        for (unsigned lane = 0; lane < pack_size && pack.a[lane] >= 0; ++lane)
+            lanes |= static_cast<unsigned>(struck_[pack.a[lane]] | struck_[pack.b[lane]]) << lane;
+        return lanes & spheres.record(p).in_problem;
     }
 
-    void survey(TileContacts& spheres, std::size_t k)
+    void survey(TileContacts& spheres, std::size_t k, std::size_t tile)
     {
         const std::int32_t a = spheres.a(k), b = spheres.b(k);
-        if (a < 0 || !(struck_[a] | struck_[b])) return;
         const bool in_loaded_bed = is_rigid() ? loaded_[a] | loaded_[b] : loaded_[a] & loaded_[b];
-        if (spheres.geometry[k].waits && !in_loaded_bed)
-            spheres.remove(k);
-        else
-            note(spheres, k);
+        if (spheres.waits(k) && !in_loaded_bed) return spheres.take_out(k);
+        note(spheres, k);
+        if (spheres.kind(k) == ContactKind::impact) impacts[tile].push_back(static_cast<std::uint32_t>(k));
     }
 
     bool is_rigid() const { return model_.solver.stabilisation == Stabilisation::projected; }
@@ -112,7 +107,7 @@ private:
     void note(const TileContacts& spheres, std::size_t k)
     {
         Meetings &a = of[spheres.a(k)], &b = of[spheres.b(k)];
-        if (spheres.geometry[k].kind != ContactKind::impact) {
+        if (spheres.kind(k) != ContactKind::impact) {
             a.held = b.held = true;
             return;
         }
@@ -151,7 +146,7 @@ void place(TileContacts& spheres, std::size_t k, const MeetingSurvey& meetings, 
     if (model.physics.spin)
         terms.tangent_mass =
             1.0 / (terms.inverse_mass_sum * (1.0 + inverse_inertia_factor * terms.arm_scale * terms.arm_scale));
-    spheres.set(k, c, terms, spheres.geometry[k]);
+    spheres.set(k, c, terms);
 }
 
 } // namespace

@@ -65,11 +65,11 @@ void project_positions(
     const auto separate = [&](std::size_t tile) {
         const TileContacts &spheres = network.contacts.spheres[tile], &at_walls = network.contacts.walls[tile];
         for (const std::size_t k : spheres.indices())
-            if (overlap_stays(spheres.geometry[k]))
+            if (overlap_stays(spheres.geometry(k)))
                 separate_spheres(spheres.contact(k), state, model.periodicity, share);
         for (const std::size_t k : at_walls.indices())
-            if (overlap_stays(at_walls.geometry[k]))
-                separate_from_wall(at_walls.contact(k), at_walls.geometry[k].wall_level, state, share);
+            if (overlap_stays(at_walls.geometry(k)))
+                separate_from_wall(at_walls.contact(k), at_walls.geometry(k).wall_level, state, share);
     };
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) { crew.color_by_color(separate); });
 
@@ -77,7 +77,7 @@ void project_positions(
     for (const std::size_t k : pistons.indices()) {
         const Contact c = pistons.contact(k);
         const PlacedWall& wall = walls[c.b];
-        separate_from_piston(c, pistons.geometry[k].wall_level, model.pistons[wall.wall().piston], wall, state, share);
+        separate_from_piston(c, pistons.geometry(k).wall_level, model.pistons[wall.wall().piston], wall, state, share);
     }
 }
 
@@ -90,13 +90,13 @@ void hold_at_walls(
         if (overlap > deepest) state.position[c.a] += (overlap - deepest) * c.normal;
     };
     for (const TileContacts& at_walls : network.contacts.walls)
-        for (const std::size_t k : at_walls.indices()) hold(at_walls.contact(k), at_walls.geometry[k].wall_level);
+        for (const std::size_t k : at_walls.indices()) hold(at_walls.contact(k), at_walls.geometry(k).wall_level);
     const TileContacts& pistons = network.contacts.pistons;
     for (const std::size_t k : pistons.indices()) {
         const Contact c = pistons.contact(k);
         const PlacedWall& began = walls[c.b];
         const Vec3 way = way_of(model.pistons[began.wall().piston], began, state);
-        hold(c, pistons.geometry[k].wall_level + c.normal.dot(way));
+        hold(c, pistons.geometry(k).wall_level + c.normal.dot(way));
     }
 }
 

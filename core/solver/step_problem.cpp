@@ -91,7 +91,7 @@ private:
         if constexpr (!std::is_null_pointer_v<std::decay_t<RowsOfOther>>) bodies.push_back(rows_of_other(basis));
         talus::add_contact(stated_.problem, contacts, k, basis, rows_, bodies);
         append_warm(impulse_in_rows(contacts, k, basis, rows_));
-        const ContactGeometry& at = contacts.geometry[k];
+        const ContactGeometry at = contacts.geometry(k);
         const Vec3 point = state_.position[c.a] - (state_.radius(c.a) + 0.5 * at.gap) * c.normal;
         stated_.contacts.push_back({c.a, c.b, with_wall, at.gap, at.kind, point});
     }

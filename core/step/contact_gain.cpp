@@ -17,23 +17,19 @@ namespace
 template <bool wall, class R> class Gains
 {
 public:
-    Gains(const CarriedImpulses& carried, const State& state, const Model& model, double h)
-        : carried_(carried), state_(state), model_(model), h_(h)
-    {
-    }
+    Gains(const State& state, const Model& model, double h) : state_(state), model_(model), h_(h) {}
 
     double of(const TileContacts& contacts) const
     {
         double sum = 0.0;
         for (const std::size_t k : contacts.indices()) {
             const WholeContact own = whole_contact<wall, R>(contacts, k);
-            sum += std::max(0.0, given_to_bodies(own) - given_by_spring(own, contacts.geometry[k]));
+            sum += std::max(0.0, given_to_bodies(own) - given_by_spring(own, contacts.geometry(k)));
         }
         return sum;
     }
 
 private:
-    const CarriedImpulses& carried_;
     const State& state_;
     const Model& model_;
     double h_;
@@ -61,9 +57,9 @@ private:
         if (own.terms.compliance == 0.0) return 0.0;
         const Contact& c = own.contact;
         const int other = wall ? model_.walls[c.b].material : state_.material[c.b];
-        const bool bears = carried_.touch[geometry.slot].is_loaded() ||
-                           model_.materials.between(state_.material[c.a], other).restitution == 0.0;
-        const double gap = geometry.gap + carried_.free_overlap[geometry.slot];
+        const bool bears =
+            geometry.touch.is_loaded() || model_.materials.between(state_.material[c.a], other).restitution == 0.0;
+        const double gap = geometry.gap + geometry.free_overlap;
         const double way = h_ * contact_velocity<wall, R>(own, state_.motion.data()).dot(c.normal);
         const auto held_at = [&](double at) { return spring_energy(std::min(0.0, at), own.terms.compliance, h_); };
         return std::max(0.0, (bears ? held_at(gap) : 0.0) - held_at(gap + way));
@@ -79,8 +75,8 @@ double contact_gain(const ContactNetwork& network, const State& state, const Mod
     std::vector<double> of_tile(contacts.spheres.size());
     with_rows(model.physics, [&](auto rows) {
         using R = decltype(rows);
-        const Gains<false, R> spheres(network.carried.pairs, state, model, h);
-        const Gains<true, R> walls(network.carried.walls, state, model, h);
+        const Gains<false, R> spheres(state, model, h);
+        const Gains<true, R> walls(state, model, h);
 #pragma omp parallel for schedule(dynamic) if (tiles > 16)
         for (std::int64_t t = 0; t < tiles; ++t) {
             const auto tile = static_cast<std::size_t>(t);

@@ -2,6 +2,7 @@
 #include "core/step/diagnostics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace talus
@@ -11,44 +12,43 @@ namespace
 
 constexpr std::size_t block = 1024; ///< spheres that are summed together: fixed, so sums do not depend on the threads
 
-std::optional<Incident::Kind> incident_of(const State& state, const Model& model, std::size_t i)
+std::optional<Incident::Kind> incident_of(const State& state, const Model& model, std::size_t i, double speed)
 {
     const auto& m = state.motion[i];
     if (!(state.position[i].allFinite() && m.velocity.allFinite() && m.rim_velocity.allFinite()))
         return Incident::Kind::not_a_number;
-    if (m.velocity.norm() > model.speed_limit) return Incident::Kind::blow_up;
+    if (speed > model.speed_limit) return Incident::Kind::blow_up;
     if (!model.world.contains(state.position[i]) && !state.leaving[i]) return Incident::Kind::escaped;
     return std::nullopt;
 }
 
-/// Adds a sphere's momentum, and what gravity gave it in a step of this length where it was before x ← x + h v.
-void add_momentum(StateSurvey& survey, const Vec3& x, const Motion& m, const Vec3& gravity, double h)
-{
-    const double mass = 1.0 / m.inverse_mass;
-    survey.momentum.linear += mass * m.velocity;
-    survey.momentum.angular += mass * (x.cross(m.velocity) + m.radius / inverse_inertia_factor * m.rim_velocity);
-    survey.from_gravity.linear += mass * h * gravity;
-    survey.from_gravity.angular += mass * h * (x - h * m.velocity).cross(gravity);
-}
-
+/// Gravity acted for a step where the spheres were before x ← x + h v.
 StateSurvey survey_block(
     const State& state, const Model& model, const StepLength& step, std::size_t begin, std::size_t end)
 {
     StateSurvey survey;
-    const Vec3 along = model.periodicity.part_along(model.gravity); // there is no height on these axes
-    const double whole_step = step.h() * step.parts;
+    const double h = step.h(), whole_step = h * step.parts;
+    double all_mass = 0.0;
+    Vec3 moment = Vec3::Zero(); // Σ m x
     for (std::size_t i = begin; i < end; ++i) {
-        const auto& m = state.motion[i];
-        const double speed = m.velocity.norm();
-        survey.kinetic_energy += kinetic_energy(m);
-        survey.potential_energy -= (model.gravity - along).dot(state.position[i]) / m.inverse_mass;
-        survey.gravity_work += step.h() * along.dot(m.velocity) / m.inverse_mass;
-        add_momentum(survey, state.position[i], m, model.gravity, step.h());
+        const Motion& m = state.motion[i];
+        const Vec3& x = state.position[i];
+        const double mass = 1.0 / m.inverse_mass, square = m.velocity.squaredNorm(), speed = std::sqrt(square);
+        all_mass += mass;
+        moment += mass * x;
+        survey.kinetic_energy += 0.5 * mass * (square + m.rim_velocity.squaredNorm() / inverse_inertia_factor);
+        survey.momentum.linear += mass * m.velocity;
+        survey.momentum.angular += mass * (x.cross(m.velocity) + m.radius / inverse_inertia_factor * m.rim_velocity);
         survey.fastest_speed = std::max(survey.fastest_speed, speed);
         if (speed * whole_step > 0.2 * m.radius) ++survey.long_moves;
-        if (const auto kind = incident_of(state, model, i))
-            survey.incidents.push_back({*kind, state.id[i], state.position[i], speed, state.last_wall[i]});
+        if (const auto kind = incident_of(state, model, i, speed))
+            survey.incidents.push_back({*kind, state.id[i], x, speed, state.last_wall[i]});
     }
+    const Vec3 along = model.periodicity.part_along(model.gravity); // there is no height on these axes
+    survey.potential_energy = -(model.gravity - along).dot(moment);
+    survey.gravity_work = h * along.dot(survey.momentum.linear);
+    survey.from_gravity.linear = h * all_mass * model.gravity;
+    survey.from_gravity.angular = h * (moment - h * survey.momentum.linear).cross(model.gravity);
     return survey;
 }
 

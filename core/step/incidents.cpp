@@ -39,22 +39,22 @@ std::vector<Incident> find_presses(const ContactNetwork& network, const State& s
     });
 
     std::map<std::size_t, Press> presses; // by the first sphere of a group
-    const auto add = [&](const Contact& c, const ContactGeometry& g, const TouchRecord& touch) -> Press& {
+    const auto add = [&](const Contact& c, const ContactGeometry& g) -> Press& {
         Press& press = presses[groups.first_of_set(static_cast<std::size_t>(c.a))];
         press.spheres.insert(state.id[c.a]);
-        press.is_known = press.is_known || (touch.is_jammed() && !touch.is_newly_jammed());
-        press.is_new = press.is_new || touch.is_newly_jammed();
-        if (touch.is_jammed() && -g.gap > press.overlap) {
+        press.is_known = press.is_known || (g.touch.is_jammed() && !g.touch.is_newly_jammed());
+        press.is_new = press.is_new || g.touch.is_newly_jammed();
+        if (g.touch.is_jammed() && -g.gap > press.overlap) {
             press.overlap = -g.gap;
             press.sphere = c.a;
         }
         return press;
     };
     for_each_loaded_sphere_contact(network, [&](const Contact& c, const ContactGeometry& g) {
-        if (is_deep(g)) add(c, g, network.carried.pairs.touch[g.slot]).spheres.insert(state.id[c.b]);
+        if (is_deep(g)) add(c, g).spheres.insert(state.id[c.b]);
     });
     for_each_loaded_wall_contact(network, [&](const Contact& c, const ContactGeometry& g) {
-        if (is_deep(g)) add(c, g, network.carried.walls.touch[g.slot]).walls.insert(c.b);
+        if (is_deep(g)) add(c, g).walls.insert(c.b);
     });
 
     std::vector<Incident> incidents;
@@ -78,10 +78,10 @@ std::vector<Incident> find_walls_inside(const ContactNetwork& network, const Sta
     for (const TileContacts& contacts : network.contacts.walls)
         for (const std::size_t k : contacts.indices()) {
             const auto [sphere, wall] = std::pair(contacts.a(k), contacts.b(k));
-            const ContactGeometry& geometry = contacts.geometry[k];
+            const ContactGeometry geometry = contacts.geometry(k);
             const double age = state.time - model.walls[wall].appear_at;
-            const bool is_new = model.walls[wall].appear_at > 0.0 && age < 2.0 * model.time_step &&
-                                !network.carried.walls.touch[geometry.slot].is_loaded();
+            const bool is_new =
+                model.walls[wall].appear_at > 0.0 && age < 2.0 * model.time_step && !geometry.touch.is_loaded();
             if (!is_new || -geometry.gap < inside * model.min_diameter) continue;
             Incident& incident = found[wall];
             incident.kind = Incident::Kind::appeared_inside;

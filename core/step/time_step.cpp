@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace talus
 {
@@ -88,8 +87,6 @@ void mark_leaving(State& state, const std::vector<Region>& outlets)
             if (outlet.contains(state.position[i])) state.leaving[i] = 1;
 }
 
-using MovingBodies = std::tuple<std::vector<Motion>, std::vector<PistonState>>;
-
 /// The speed of the fastest sphere or piston, for those in flight that of the way which they have left to go; not asked
 /// for where nothing is too fast.
 double fastest_of(const State& state, const std::vector<Flight>& flights, double h, double too_fast)
@@ -154,7 +151,7 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     // Who touches whom, and under which law?
     const PreparedStep prepared = prepare_step(state, network, model, step, observer);
     PistonGroup pistons(network, state, model, h);
-    const MovingBodies before = fastest < infinity ? MovingBodies{state.motion, state.pistons} : MovingBodies{};
+    if (fastest < infinity) network.before.take(state);
     StepReport report;
     report.search = prepared.search;
     report.contacts = prepared.contacts;
@@ -181,7 +178,7 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     report.solve = solve_contacts(network, pistons, state.motion, model.physics, model.solver, warm_size, sweeps);
     pistons.store(network, state);
     if (fastest_of(state, prepared.flights, h, fastest) > fastest) {
-        std::tie(state.motion, state.pistons) = before;
+        network.before.put_back(state);
         return std::nullopt;
     }
     if (!step.is_split() && state.steps % audit_interval == 0)

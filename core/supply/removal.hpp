@@ -13,7 +13,7 @@ namespace talus
 
 /// Takes the spheres out for which `gone` is not 0; the others keep their order. The contacts of the last step are
 /// forgotten, for they name spheres by storage index.
-void remove_spheres(State& state, ContactNetwork& network, const Model& model, const std::vector<std::uint8_t>& gone);
+void remove_spheres(State& state, ContactNetwork& network, const std::vector<std::uint8_t>& gone);
 
 /// What has left through the outlets.
 struct Outflow {
@@ -24,7 +24,7 @@ struct Outflow {
 };
 
 /// Takes the spheres that are leaving out of the state and adds them to the outflow.
-void empty_outlets(Outflow& outflow, State& state, ContactNetwork& network, const Model& model);
+void empty_outlets(Outflow& outflow, State& state, ContactNetwork& network);
 
 /// A sphere that left the world where there is no outlet, as it was then.
 struct EscapedSphere {
@@ -45,7 +45,7 @@ struct EscapedSphere {
 
 /// Takes the spheres that escaped in the last step out of the state and adds them to the list.
 /// @param incidents of that step
-void remove_escaped(std::vector<EscapedSphere>& escaped, State& state, ContactNetwork& network, const Model& model,
-    const std::vector<Incident>& incidents);
+void remove_escaped(
+    std::vector<EscapedSphere>& escaped, State& state, ContactNetwork& network, const std::vector<Incident>& incidents);
 
 } // namespace talus

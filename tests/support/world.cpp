@@ -114,7 +114,7 @@ std::vector<ContactForce> World::contact_forces() const
     for_each_contact(network, [&](const TileContacts& contacts, std::size_t k, bool with_wall) {
         const Contact contact = contacts.contact(k);
         ContactForce force =
-            contact_force(contact, contacts.terms(k), contacts.geometry[k], network.carried.impulse_step);
+            contact_force(contact, contacts.terms(k), contacts.geometry(k), network.carried.impulse_step);
         force.with_wall = with_wall;
         force.a = state.id[static_cast<std::size_t>(contact.a)];
         force.b = with_wall ? contact.b : state.id[static_cast<std::size_t>(contact.b)];

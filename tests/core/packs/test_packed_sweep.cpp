@@ -138,7 +138,6 @@ TEST_CASE("contacts of one sphere are in packs of their own, more than a window 
         contacts.set(other, {.a = b, .b = 100 + b}, {}, {});
         CHECK(star / pack_size != other / pack_size);
     }
-    filler.end();
     CHECK(contacts.count() == 2 * many);
     CHECK(contacts.packs() >= many);
     for (std::size_t p = 0; p < contacts.packs(); ++p) {

@@ -128,7 +128,7 @@ TEST_CASE("a sphere that left through an outlet has passed", "[mass_flow]")
     ContactNetwork network;
     Model model;
     model.max_diameter = 2.0 * radius;
-    empty_outlets(outflow, stream.state, network, model);
+    empty_outlets(outflow, stream.state, network);
     stream.move_to(0.7);
     sample(sensor, stream.state, Model{});
     CHECK(sensor.latest()[1].value == 70.0);

@@ -16,7 +16,7 @@ bool has_kind(const ContactNetwork& network, ContactKind kind)
 {
     bool found = false;
     for_each_contact(network,
-        [&](const TileContacts& contacts, std::size_t k, bool) { found = found || contacts.geometry[k].kind == kind; });
+        [&](const TileContacts& contacts, std::size_t k, bool) { found = found || contacts.geometry(k).kind == kind; });
     return found;
 }
 

@@ -36,7 +36,7 @@ TEST_CASE("what has left and what is inside are together what was inserted", "[o
     std::int64_t before = 0;
     while (world.state.count() > 0) {
         world.step();
-        empty_outlets(outflow, world.state, world.network, world.model);
+        empty_outlets(outflow, world.state, world.network);
         double inside = 0.0;
         for (std::size_t i = 0; i < world.state.count(); ++i) inside += world.state.mass(i);
         CHECK(outflow.count + static_cast<std::int64_t>(world.state.count()) == world.state.next_id);
@@ -54,7 +54,7 @@ TEST_CASE("spheres leave lowest first and the others keep their ids", "[outlet]"
     Outflow outflow;
     while (outflow.count < 2) {
         world.step();
-        empty_outlets(outflow, world.state, world.network, world.model);
+        empty_outlets(outflow, world.state, world.network);
     }
     CHECK(world.state.id == std::vector<std::int64_t>{2, 3, 4});
     CHECK(world.radius(3) == Approx(0.005 - 3e-4));
@@ -68,7 +68,7 @@ TEST_CASE("a sphere that was in an outlet leaves even if it is out of it again",
     world.step(200); // 0.2 s: 0.2 m below it
     REQUIRE(world.position(0).z() < -0.1);
     Outflow outflow;
-    empty_outlets(outflow, world.state, world.network, world.model);
+    empty_outlets(outflow, world.state, world.network);
     CHECK(outflow.count == 1);
     CHECK(world.state.count() == 0);
 }
@@ -80,6 +80,6 @@ TEST_CASE("a sphere counts as inside until its centre is in the outlet", "[outle
     world.state.position[0].z() = -0.0499; // its surface is in already
     Outflow outflow;
     world.step();
-    empty_outlets(outflow, world.state, world.network, world.model);
+    empty_outlets(outflow, world.state, world.network);
     CHECK(outflow.count == 0);
 }

@@ -119,7 +119,8 @@ TEST_CASE("the force of a contact is that of the last sub-step, and its line end
     Simulation simulation = stack_of_two();
     simulation.network.carried.impulse_step = 0.25 * simulation.model.time_step;
     simulation.state.position[1].z() = 1.25; // an overlap of a quarter
-    simulation.network.contacts.spheres[0].geometry[0].gap = -0.25;
+    TileContacts& spheres = simulation.network.contacts.spheres[0];
+    spheres.set(0, spheres.contact(0), spheres.terms(0), {.gap = -0.25});
     const SceneFolder folder;
     FrameWriter(folder.path()).write_contacts(simulation);
     const auto frame = read_frame(folder.path() / "frames/contacts_000000.vtp");

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contacts/sphere_contacts.hpp"
+
+#include "core/contacts/rolling_row.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace talus
+{
+namespace
+{
+
+static_assert(sizeof(TouchRecord) == 1 && sizeof(IndexPair) == 2 * sizeof(std::int32_t) &&
+              sizeof(ContactLaw) == 4 * sizeof(double));
+
+/// So wide that two spheres of which one comes within reach of the other have balls that meet.
+ReachBall reach_ball(const State& state, std::size_t i, const StepConstants& step)
+{
+    const Motion& m = state.motion[i];
+    const Vec3& x = state.position[i];
+    return {{x.x(), x.y(), x.z()}, m.radius + std::max(0.5 * step.reach, step.horizon * m.velocity.norm())};
+}
+
+void mark_spheres(const ContactPack& pack, unsigned lanes, std::vector<std::uint8_t>& spheres)
+{
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const int lane = std::countr_zero(lanes);
+        mark(spheres, pack.a[lane]);
+        mark(spheres, pack.b[lane]);
+    }
+}
+
+} // namespace
+
+SphereAssembly::SphereAssembly(
+    ContactNetwork& network, const State& state, const Model& model, const StepConstants& step)
+    : network_(network), state_(state), model_(model), step_(step)
+{
+    std::vector<ReachBall>& balls = network.contacts.reach_balls;
+#pragma omp parallel for schedule(static) if (state.count() > 1000)
+    for (std::size_t i = 0; i < state.count(); ++i) balls[i] = reach_ball(state, i, step);
+    spheres_ = {balls.data(), reinterpret_cast<const double*>(state.motion.data()), state.material.data(),
+        static_cast<std::int32_t>(model.materials.list.size()),
+        reinterpret_cast<const double*>(model.materials.laws.data()),
+        reinterpret_cast<const double*>(network.carried.pairs.contact.data())};
+}
+
+ContactSurvey SphereAssembly::assemble(std::size_t tile)
+{
+    place(tile);
+    return make(network_.contacts.spheres[tile]);
+}
+
+/// Those whose balls meet, and those that are loaded: these have something to forget.
+void SphereAssembly::place(std::size_t tile)
+{
+    const CandidateList& list = network_.list;
+    TileContacts& contacts = network_.contacts.spheres[tile];
+    AssemblyRoom& room = network_.contacts.room();
+    const auto first = list.pairs_of_tile[tile], last = list.pairs_of_tile[tile + 1];
+    room.near.resize(std::max<std::size_t>(room.near.size(), last - first + 1));
+    const std::size_t count = kernel_.find_near(
+        reinterpret_cast<const std::int32_t*>(list.pairs.data()), spheres_, first, last, step_, room.near.data());
+    room.filler.begin(contacts, state_.count());
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t slot = room.near[i];
+        const auto [a, b] = list.pairs[slot];
+        contacts.place_pair(room.filler.place(a, b), a, b, slot);
+    }
+}
+
+ContactSurvey SphereAssembly::make(TileContacts& contacts)
+{
+    ContactSurvey survey;
+    TouchSums sums;
+    for (std::size_t p = 0; p < contacts.packs(); ++p) {
+        ContactPack& pack = contacts.pack(p);
+        RecordPack& record = contacts.record(p);
+        const TouchMarks marks = kernel_.touch_spheres(pack, record, sums, spheres_, step_);
+        if (contacts.has_rolling()) make_rolling(contacts, p);
+        survey.count += static_cast<std::size_t>(std::popcount(record.in_problem));
+        survey.impacts += static_cast<std::size_t>(std::popcount(marks.impact));
+        if (!step_.restitution) continue; // nothing is struck
+        mark_spheres(pack, marks.impact, network_.contacts.struck);
+        mark_spheres(pack, marks.carries, network_.contacts.loaded);
+    }
+    for (int lane = 0; lane < pack_size; ++lane) {
+        survey.overlapping += static_cast<std::size_t>(sums.overlapping[lane]);
+        survey.overlap_sum += sums.overlap[lane];
+        survey.worst_overlap = std::max(survey.worst_overlap, sums.worst_overlap[lane]);
+        survey.stored_energy += sums.stored_energy[lane];
+    }
+    return survey;
+}
+
+void SphereAssembly::make_rolling(TileContacts& contacts, std::size_t p) const
+{
+    for (std::size_t lane = 0; lane < pack_size; ++lane) {
+        const std::size_t k = pack_size * p + lane;
+        if (!contacts.record(p).holds(lane)) {
+            contacts.set_rolling(k, {});
+            continue;
+        }
+        const Motion &a = state_.motion[contacts.a(k)], &b = state_.motion[contacts.b(k)];
+        const double radius = a.radius * b.radius / (a.radius + b.radius);
+        const auto& law = model_.materials.between(state_.material[contacts.a(k)], state_.material[contacts.b(k)]);
+        contacts.set_rolling(k, rolling_row(contacts, k, law, radius, inverse_inertia(a) + inverse_inertia(b),
+                                    network_.carried.pairs.rolling_impulse[contacts.record(p).slot[lane]]));
+    }
+}
+
+} // namespace talus

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/contacts/contact_network.hpp"
+#include "core/contacts/contact_survey.hpp"
+#include "core/contacts/rolling_row.hpp"
+#include "core/packs/kernels.hpp"
+#include "core/world/model.hpp"
+#include "core/world/state.hpp"
+
+#include <algorithm>
+
+namespace talus
+{
+
+/// A touch of a sphere and a wall, as detection found it: fields as in TouchPack.
+struct WallTouch {
+    std::int32_t sphere, wall;
+    Vec3 normal;
+    double gap, u_n, u_n_ahead, closes, u_n_before, u_n_turned;
+    double inverse_mass_sum; ///< W
+    std::uint32_t slot;
+    double wall_level; ///< of ContactGeometry
+    WallRow row = {};  ///< at walls that move
+};
+
+/// Makes the contacts of a tile with walls, eight at a time. Those with pistons, of all tiles, are made one by one.
+class WallAssembly
+{
+public:
+    WallAssembly(TileContacts& contacts, bool with_pistons, CarriedImpulses& carried, StepContacts& scratch,
+        const State& state, const Model& model, const StepConstants& step)
+        : contacts_(contacts), one_by_one_(with_pistons), carried_(carried), struck_(scratch.struck),
+          filler_(scratch.room().filler), contact_(scratch.room().contact), touch_(scratch.room().touch), state_(state),
+          model_(model), step_(step)
+    {
+        filler_.begin(contacts, state.count());
+    }
+
+    /// Returns whether it has become a contact, where that is known at once.
+    bool add(const WallTouch& at, const ContactLaw& law)
+    {
+        const int lane = count_++;
+        contact_.a[lane] = at.sphere;
+        contact_.b[lane] = at.wall;
+        contact_.friction[lane] = law.friction;
+        for (int d = 0; d < 3; ++d) contact_.normal[d][lane] = at.normal[d];
+        contact_.arm_scale[lane] = 1.0;
+        contact_.inverse_mass_sum[lane] = at.inverse_mass_sum;
+        touch_.restitution[lane] = law.restitution;
+        touch_.stiffness[lane] = law.stiffness;
+        const CarriedContact& carried = carried_.contact[at.slot];
+        for (int d = 0; d < 3; ++d) touch_.carried[d][lane] = carried.impulse[d];
+        touch_.free_overlap[lane] = carried.free_overlap;
+        touch_.loaded[lane] = -static_cast<std::int64_t>(carried.touch.is_loaded());
+        touch_.jammed[lane] = -static_cast<std::int64_t>(carried.touch.is_jammed());
+        touch_.gap[lane] = at.gap;
+        touch_.u_n[lane] = at.u_n;
+        touch_.u_n_ahead[lane] = at.u_n_ahead;
+        touch_.closes[lane] = at.closes;
+        touch_.u_n_before[lane] = at.u_n_before;
+        touch_.u_n_turned[lane] = at.u_n_turned;
+        slot_[lane] = at.slot;
+        wall_level_[lane] = at.wall_level;
+        row_[lane] = at.row;
+        const std::size_t before = survey_.count;
+        if (count_ == pack_size || one_by_one_) make();
+        return survey_.count > before;
+    }
+
+    ContactSurvey finish()
+    {
+        make();
+        return survey_;
+    }
+
+private:
+    TileContacts& contacts_;
+    const bool one_by_one_;
+    CarriedImpulses& carried_;
+    std::vector<std::uint8_t>& struck_;
+    PackFiller& filler_;
+    ContactPack& contact_; ///< of the next eight …
+    TouchPack& touch_;     ///< … with what was found of them
+    const State& state_;
+    const Model& model_;
+    const StepConstants& step_;
+    ContactSurvey survey_;
+    int count_ = 0; ///< of the next eight
+    std::uint32_t slot_[pack_size];
+    double wall_level_[pack_size];
+    WallRow row_[pack_size];
+
+    void make()
+    {
+        if (count_ == 0) return;
+        fastest_kernels().touch.make_contacts(contact_, touch_, step_); // lanes that are left over hold anything
+        for (int lane = 0; lane < count_; ++lane) take(lane);
+        count_ = 0;
+    }
+
+    /// Into the problem, unless it is left out.
+    void take(int lane)
+    {
+        const std::uint32_t slot = slot_[lane];
+        const double gap = touch_.gap[lane];
+        note_overlap(gap);
+        CarriedContact& carried = carried_.contact[slot];
+        carried.free_overlap = static_cast<float>(touch_.free_overlap[lane]);
+        const bool waits = touch_.waits[lane];
+        if (!touch_.in_problem[lane] || (waits && one_by_one_)) return;
+
+        const std::int32_t sphere = contact_.a[lane];
+        const std::size_t k = one_by_one_ ? contacts_.append() : filler_.place(sphere, -1);
+        const auto kind = touch_.impact[lane] ? ContactKind::impact
+                          : touch_.open[lane] ? ContactKind::open
+                                              : ContactKind::resting;
+        contacts_.copy(k, contact_, static_cast<std::size_t>(lane),
+            {gap, wall_level_[lane], slot, kind, waits, carried.touch, carried.free_overlap});
+        if (contacts_.has_moving_walls()) contacts_.set_wall(k, row_[lane]);
+        if (contacts_.has_rolling()) {
+            const Motion& m = state_.motion[sphere];
+            const auto& law =
+                model_.materials.between(state_.material[sphere], model_.walls[contact_.b[lane]].material);
+            contacts_.set_rolling(
+                k, rolling_row(contacts_, k, law, m.radius, inverse_inertia(m), carried_.rolling_impulse[slot]));
+        }
+        if (kind == ContactKind::impact) mark(struck_, sphere);
+        ++survey_.count;
+        survey_.impacts += kind == ContactKind::impact;
+        survey_.stored_energy += touch_.stored_energy[lane];
+    }
+
+    void note_overlap(double gap)
+    {
+        if (gap >= 0.0) return;
+        ++survey_.overlapping;
+        survey_.worst_overlap = std::max(survey_.worst_overlap, -gap);
+        survey_.overlap_sum -= gap;
+    }
+};
+
+} // namespace talus
