@@ -11,9 +11,9 @@ namespace talus
 namespace
 {
 
-constexpr double cells_per_box = 16;         ///< at most; where boxes lie far apart, cells are larger
-constexpr double usual_length = 1.5;         ///< of a box, in mean lengths
-constexpr std::size_t boxes_at_once = 4096;  ///< that a thread compares
+constexpr double cells_per_box = 16;        ///< at most; where boxes lie far apart, cells are larger
+constexpr double usual_length = 1.5;        ///< of a box, in mean lengths
+constexpr std::size_t boxes_at_once = 4096; ///< that a thread compares
 
 /// A box in single precision, no smaller: most boxes of a cell do not meet, and this is seen in two comparisons.
 struct RoughBox {
