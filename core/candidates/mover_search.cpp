@@ -13,6 +13,7 @@ namespace
 
 constexpr double cells_per_box = 16;        ///< at most; where boxes lie far apart, cells are larger
 constexpr double usual_length = 1.5;        ///< of a box, in mean lengths
+constexpr double rounding = 1.0 + 1e-9;     ///< of lengths
 constexpr std::size_t boxes_at_once = 4096; ///< that a thread compares
 
 /// A box in single precision, no smaller: most boxes of a cell do not meet, and this is seen in two comparisons.
@@ -44,7 +45,7 @@ class BoxGrid
 public:
     /// @param longest none of the members is longer
     BoxGrid(const std::vector<Box>& boxes, std::vector<std::int32_t> members, double longest)
-        : boxes_(boxes), longest_(longest)
+        : boxes_(boxes), longest_(rounding * longest)
     {
         if (members.empty()) return;
         for (const auto i : members) around_.extend(boxes[static_cast<std::size_t>(i)]);
