@@ -56,19 +56,35 @@ template <int width> [[gnu::always_inline]] inline Numbers<width> root(const Num
     return numbers;
 }
 
+/// All lanes, one or another.
+template <int width> [[gnu::always_inline]] inline std::int64_t united(const Flags<width>& flags)
+{
+    if constexpr (width == 2)
+        return flags[0] | flags[1];
+    else if constexpr (width == 4)
+        return united<2>(__builtin_shufflevector(flags, flags, 0, 1) | __builtin_shufflevector(flags, flags, 2, 3));
+    else
+        return united<4>(
+            __builtin_shufflevector(flags, flags, 0, 1, 2, 3) | __builtin_shufflevector(flags, flags, 4, 5, 6, 7));
+}
+
 template <int width> [[gnu::always_inline]] inline bool any(const Flags<width>& flags)
 {
-    bool is = false;
-    for (int lane = 0; lane < width; ++lane) is |= flags[lane] != 0;
-    return is;
+    return united<width>(flags) != 0;
+}
+
+/// 0, step, 2 step, …
+template <int width> [[gnu::always_inline]] inline Flags<width> stairs(std::int64_t step)
+{
+    Flags<width> flags;
+    for (int lane = 0; lane < width; ++lane) flags[lane] = step * lane;
+    return flags;
 }
 
 /// A bit for each lane.
 template <int width> [[gnu::always_inline]] inline unsigned bits(const Flags<width>& flags)
 {
-    unsigned all = 0;
-    for (int lane = 0; lane < width; ++lane) all |= static_cast<unsigned>(flags[lane] & 1) << lane;
-    return all;
+    return static_cast<unsigned>(united<width>((flags & 1) << stairs<width>(1)));
 }
 
 /// Bytes as wide numbers, and back.
@@ -80,8 +96,8 @@ template <int width> [[gnu::always_inline]] inline Flags<width> widened(const st
 }
 template <int width> [[gnu::always_inline]] inline void narrow(std::uint8_t* to, const Flags<width>& flags)
 {
-    const auto bytes = __builtin_convertvector(flags, typename Register<width>::Bytes);
-    __builtin_memcpy(to, &bytes, sizeof bytes);
+    const std::int64_t bytes = united<width>((flags & 255) << stairs<width>(8));
+    __builtin_memcpy(to, &bytes, width); // the lowest byte comes first
 }
 
 template <int width> [[gnu::always_inline]] inline void store_floats(float* to, const Numbers<width>& numbers)
