@@ -247,6 +247,38 @@ void add_study(CLI::App& app, CommandLine& line)
     verb->callback([&] { line.verb = CommandLine::Verb::study; });
 }
 
+void add_export(CLI::App& app, CommandLine& line)
+{
+    CLI::App* verb = app.add_subcommand(
+        "export", "Write the frames of a run for other tools, or a scene as a deck for another program");
+    verb->add_option("WHAT", line.scene, "The folder of a run; for a deck, a scene file or the name of a scene")
+        ->required()
+        ->type_name("");
+    add_choice<ExportFormat>(*verb, "--format", line.format,
+        {{"lammps-dump", ExportFormat::lammps_dump}, {"csv", ExportFormat::csv}, {"vtp", ExportFormat::vtp},
+            {"lammps", ExportFormat::lammps}, {"liggghts", ExportFormat::liggghts}},
+        "Of frames: lammps-dump (OVITO), csv, or vtp without LZ4; a deck: lammps or liggghts");
+    verb->get_option("--format")->required();
+    verb->add_option("-o,--out", line.out, "Output folder [OUT/FORMAT, for a deck out/NAME-FORMAT]")
+        ->type_name("DIR")
+        ->take_last();
+    verb->add_flag("--force", line.force, "Replace the files of an earlier export in that folder");
+    CLI::Option* seed = verb->add_option("--seed", line.seed, "Of a deck: seed of all random numbers")
+                            ->type_name("N")
+                            ->check(from_zero_up);
+    add_change_options(*verb, line);
+    add_quiet_flag(*verb, line);
+    verb->footer("Example: talus export out/hopper --format lammps-dump\n"
+                 "         talus export silo --format liggghts --until 2 -o silo-deck");
+    verb->callback([&line, verb, seed] {
+        line.verb = CommandLine::Verb::export_files;
+        const bool deck = line.format == ExportFormat::lammps || line.format == ExportFormat::liggghts;
+        if (!deck && (seed->count() > 0 || verb->count("--set") > 0 || verb->count("--until") > 0))
+            throw UsageError(
+                "--set, --until and --seed are for the export of a scene: the frames of a run are as they are");
+    });
+}
+
 } // namespace
 
 std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
@@ -264,6 +296,7 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
     add_dump(app, line);
     add_solve(app, line);
     add_study(app, line);
+    add_export(app, line);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
@@ -275,7 +308,8 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
             "{}; see 'talus {}--help'", error.what(), verbs.empty() ? "" : verbs.front()->get_name() + " "));
     }
     if (app.get_subcommands().empty())
-        throw UsageError("say what to do: run, resume, check, keys, list, dump, solve or study; see 'talus --help'");
+        throw UsageError(
+            "say what to do: run, resume, check, keys, list, dump, solve, study or export; see 'talus --help'");
     return line;
 }
 

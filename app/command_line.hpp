@@ -26,16 +26,21 @@ struct SolveRequest {
     int guess = 0;                 ///< of the file to start from, counted from 1; 0: start from zero
 };
 
+/// Formats of `talus export`: of the frames of a run, or of a scene as the input of another program.
+enum class ExportFormat { lammps_dump, csv, vtp, lammps, liggghts };
+
 /// What the user asked for, first of all of which scene.
 struct CommandLine : SceneRequest {
-    enum class Verb { run, resume, check, keys, list, dump, solve, study };
+    enum class Verb { run, resume, check, keys, list, dump, solve, study, export_files };
     Verb verb = Verb::list;
     std::string table; ///< of keys: the one to show; empty: all
     double at = 0.0;   ///< of dump [s]
     SolveRequest solve;
-    std::filesystem::path study; ///< file of what to try; empty: the usual
-    std::filesystem::path out;   ///< of run: empty for out/<scene name>; of resume: the run's folder; else a file
-    std::filesystem::path log;   ///< empty: no log file
+    ExportFormat format = ExportFormat::vtp; ///< of export, whose scene is a run's folder where frames are meant
+    std::filesystem::path study;             ///< file of what to try; empty: the usual
+    std::filesystem::path out; ///< of run: empty for out/<scene name>; of resume: the run's folder; of export: empty
+                               ///< for one by its format; else a file
+    std::filesystem::path log; ///< empty: no log file
     bool force = false;
     bool relax = false;
     bool resolved = false; ///< check prints the resolved scene

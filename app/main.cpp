@@ -6,6 +6,7 @@
 #include "app/system/terminal.hpp"
 #include "app/verbs/check_scene.hpp"
 #include "app/verbs/dump_step.hpp"
+#include "app/verbs/export_files.hpp"
 #include "app/verbs/run_scene.hpp"
 #include "app/verbs/solve_problem.hpp"
 #include "io/scene/key_table.hpp"
@@ -67,6 +68,8 @@ ExitCode execute(const CommandLine& line)
         return solve_problem(line);
     case CommandLine::Verb::study:
         return study_scene(line);
+    case CommandLine::Verb::export_files:
+        return export_files(line);
     }
     return ExitCode::done;
 }

@@ -1,124 +1,254 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws spheres and walls with VTK. It needs a window system: render.py brings one."""
+"""Draws spheres, walls and force chains with VTK. It needs a window system: render.py brings one."""
 from typing import NamedTuple
 
 import numpy
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  draws the text
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkLookupTable
-from vtkmodules.vtkCommonDataModel import vtkPlane
-from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges, vtkPolyDataNormals
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPlane, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges, vtkPolyDataNormals, vtkTubeFilter
 from vtkmodules.vtkImagingCore import vtkImageShrink3D
 from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
-from vtkmodules.vtkRenderingCore import (vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor,
-                                         vtkWindowToImageFilter)
+from vtkmodules.vtkRenderingCore import (vtkActor, vtkActor2D, vtkLight, vtkPolyDataMapper, vtkPolyDataMapper2D,
+                                         vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
 from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLSphereMapper
 
-VIEWS = {  # from where one looks, and what is up
-    "front": ((0.0, -1.0, 0.2), (0.0, 0.0, 1.0)),
-    "side": ((1.0, 0.0, 0.2), (0.0, 0.0, 1.0)),
-    "iso": ((0.6, -1.0, 0.7), (0.0, 0.0, 1.0)),
-    "top": ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
-}
+from camera import Clip, View
+from colours import Colouring
+
 VIEW_ANGLE = 20.0  # degrees; narrow, so that parallels nearly stay parallel
 OVERSAMPLING = 2  # drawn pixels across a shown one, as the sphere mapper leaves outlines jagged
 MARGIN, BAND = 0.03, 0.12  # shares of the picture left free all round, and at the top for title and colour bar
+BEYOND = 0.12  # how far walls are drawn round what is to be seen, by its diagonal …
+PLANE_BEYOND = 1.5  # … and planes, which have no end
 
 INK = (0.16, 0.17, 0.20)
 WALL = (0.50, 0.57, 0.66)
 SAND = (0.94, 0.81, 0.63)
+FAINT_GRAIN = (0.80, 0.80, 0.80)
 RAMP = ((0.0, SAND), (0.3, (0.97, 0.67, 0.36)), (0.65, (0.82, 0.28, 0.33)), (1.0, (0.35, 0.14, 0.48)))
+FORCES = ((0.0, (0.62, 0.72, 0.82)), (0.35, (0.25, 0.45, 0.70)), (0.7, (0.55, 0.20, 0.45)), (1.0, (0.75, 0.10, 0.15)))
 MATERIALS = (SAND, (0.42, 0.60, 0.75), (0.80, 0.45, 0.36), (0.52, 0.66, 0.45), (0.60, 0.50, 0.68))
-
-
-class Colouring(NamedTuple):
-    """What the colour of the grains tells."""
-
-    label: str  # of the colour bar; empty: no bar
-    low: float
-    high: float
-    steps: int = 256  # how many colours
 
 
 class Setting(NamedTuple):
     """What the pictures of a run have in common."""
 
-    view: str  # one of VIEWS
+    view: View
     points: numpy.ndarray  # all that must be in the picture [m], one a row
     colouring: Colouring
     size: tuple  # width and height in pixels
+    zoom: float = 1.0
+    center: numpy.ndarray = None  # what is in the middle [m]; None: that of the points
+    clip: Clip = None
+    strongest: float = 0.0  # force of the thickest chains [N]
+
+
+class Content(NamedTuple):
+    """What one picture shows."""
+
+    title: str
+    grains: vtkPolyData  # with the array `radius`
+    values: numpy.ndarray  # what colours each of the grains
+    walls: vtkPolyData  # triangles, without those of planes
+    planes: list  # a point and a normal of each
+    contacts: vtkPolyData = None  # lines with `normal_force`, drawn as tubes, with the grains faint
 
 
 def fitting_size(view, points, longest=1200):
     """A size of picture in the shape of what it shows, though neither very narrow nor very flat."""
-    right, above, _ = view_axes(view)
-    width, height = numpy.ptp(points @ right), numpy.ptp(points @ above)
+    width, height = numpy.ptp(points @ view.right), numpy.ptp(points @ view.above)
     ratio = width * (1 - 2 * MARGIN - BAND) / (max(height, 1e-3 * width) * (1 - 2 * MARGIN))
     ratio = min(max(ratio, 0.6), 1.5)
-    return (round(longest * min(1.0, ratio)), round(longest / max(1.0, ratio)))
+    return tuple(2 * round(longest / 2 * side) for side in (min(1.0, ratio), 1 / max(1.0, ratio)))
 
 
-def write_picture(path, grains, values, walls, title, setting):
-    """Draws one frame into a PNG file. Raises OSError where that cannot be written.
+class Painter:
+    """Draws one picture after the other into the same window."""
 
-    grains: vtkPolyData with the array `radius`; values: what colours each of them; walls: vtkPolyData of triangles.
-    """
-    size = tuple(OVERSAMPLING * pixels for pixels in setting.size)
-    renderer = vtkRenderer()
-    renderer.SetBackground(1.0, 1.0, 1.0)
-    for lamp in lamps():
-        renderer.AddLight(lamp)
-    if grains.GetNumberOfPoints():
-        table = lookup_table(setting.colouring)
-        renderer.AddActor(grains_actor(grains, values, table))
-        darken_crevices(renderer, float(numpy.mean(grains.GetPointData().GetArray("radius").GetRange())))
-        if setting.colouring.label:
-            renderer.AddActor2D(colour_bar(table, setting.colouring, size))
-    if walls.GetNumberOfCells():
-        for actor in wall_actors(walls, line_width=max(size) / 700):
-            cut_off_far_away(actor, setting.points)
+    def __init__(self, setting):
+        self.setting = setting
+        self.drawn_size = tuple(OVERSAMPLING * pixels for pixels in setting.size)
+        self.renderer = vtkRenderer()
+        self.renderer.SetBackground(1.0, 1.0, 1.0)
+        self.renderer.SetUseDepthPeeling(True)  # translucent walls behind each other, in the right order
+        self.renderer.SetMaximumNumberOfPeels(8)
+        for lamp in lamps():
+            self.renderer.AddLight(lamp)
+        self.window = vtkRenderWindow()
+        self.window.OffScreenRenderingOn()
+        self.window.SetSize(*self.drawn_size)
+        self.window.SetMultiSamples(0)
+        self.window.AlphaBitPlanesOn()  # for the depth peeling
+        self.window.AddRenderer(self.renderer)
+        aim_camera(self.renderer.GetActiveCamera(), setting)
+
+    def png(self, content):
+        """The picture as the bytes of a PNG file."""
+        image = self._draw(content)  # to be kept: what a connection leads to is not
+        writer = vtkPNGWriter()
+        writer.SetInputConnection(image.GetOutputPort())
+        writer.WriteToMemoryOn()
+        writer.Write()
+        return bytes(vtk_to_numpy(writer.GetResult()))
+
+    def pixels(self, content):
+        """The picture as an array of rows from above, each of pixels with red, green and blue from 0 to 255."""
+        image = self._draw(content)
+        width, height = self.setting.size
+        colours = vtk_to_numpy(image.GetOutput().GetPointData().GetScalars()).reshape(height, width, -1)
+        return numpy.ascontiguousarray(colours[::-1, :, :3])
+
+    def _draw(self, content):
+        setting, renderer = self.setting, self.renderer
+        renderer.RemoveAllViewProps()
+        if content.grains.GetNumberOfPoints():
+            self._add_grains(content)
+        if content.walls.GetNumberOfCells():
+            for actor in wall_actors(content.walls, line_width=max(self.drawn_size) / 700):
+                cut_off(actor, setting, BEYOND)
+                renderer.AddActor(actor)
+        for point, normal in content.planes:
+            actor = plane_actor(point, normal, setting)
+            cut_off(actor, setting, PLANE_BEYOND, clipped=abs(normal @ setting.view.above) < 0.7)
             renderer.AddActor(actor)
-    renderer.AddActor2D(title_line(title, size))
-    aim_camera(renderer.GetActiveCamera(), setting, size)
-    renderer.ResetCameraClippingRange()
-    renderer.SetUseDepthPeeling(True)  # translucent walls behind each other, in the right order
-    renderer.SetMaximumNumberOfPeels(8)
-    path.write_bytes(png(renderer, size))
+        renderer.AddActor2D(title_line(content.title, self.drawn_size))
+        renderer.ResetCameraClippingRange()
+        drawn = vtkWindowToImageFilter()
+        drawn.SetInput(self.window)
+        drawn.ReadFrontBufferOff()
+        shown = vtkImageShrink3D()
+        shown.SetInputConnection(drawn.GetOutputPort())
+        shown.SetShrinkFactors(OVERSAMPLING, OVERSAMPLING, 1)
+        shown.MeanOn()
+        shown.Update()
+        return shown
+
+    def _add_grains(self, content):
+        setting, renderer = self.setting, self.renderer
+        radius = float(numpy.mean(content.grains.GetPointData().GetArray("radius").GetRange()))
+        if content.contacts is not None:
+            # no shade in the crevices: it would hide what is behind translucent grains
+            renderer.SetUseSSAO(False)
+            renderer.AddActor(faint_grains_actor(content.grains))
+            table = ramp_table(0.0, setting.strongest, FORCES)
+            if content.contacts.GetNumberOfCells():
+                renderer.AddActor(chains_actor(content.contacts, setting.strongest, radius, table))
+            self._add_flat(colour_bar(table, "normal force [N]", self.drawn_size))
+            return
+        colouring = setting.colouring
+        colours = MATERIALS if colouring.names else RAMP
+        if colouring.names:
+            table = step_table(len(colouring.names))
+        else:
+            table = ramp_table(colouring.low, colouring.high, colours)
+        renderer.AddActor(grains_actor(content.grains, content.values, table))
+        darken_crevices(renderer, radius)
+        if colouring.names:
+            self._add_flat(legend(colouring.names, self.drawn_size))
+        elif colouring.label:
+            self._add_flat(colour_bar(table, colouring.label, self.drawn_size))
+
+    def _add_flat(self, actors):
+        for actor in actors:
+            self.renderer.AddActor2D(actor)
 
 
-def lookup_table(colouring):
-    """The colours of a colouring: a ramp, or where it has few steps one colour for each."""
+def ramp_table(low, high, ramp, steps=256):
+    """Colours from a value to another along a ramp."""
+    places, knots = zip(*ramp)
+    at = numpy.linspace(0.0, 1.0, steps)
     table = vtkLookupTable()
-    table.SetNumberOfTableValues(colouring.steps)
-    table.SetTableRange(colouring.low, colouring.high)
-    if colouring.steps <= len(MATERIALS):
-        colours = MATERIALS[:colouring.steps]
-    else:
-        places, knots = zip(*RAMP)
-        at = numpy.linspace(0.0, 1.0, colouring.steps)
-        colours = numpy.array([numpy.interp(at, places, channel) for channel in zip(*knots)]).T
-    for index, colour in enumerate(colours):
+    table.SetNumberOfTableValues(steps)
+    table.SetTableRange(low, high if high > low else low + 1.0)
+    for index, colour in enumerate(zip(*(numpy.interp(at, places, channel) for channel in zip(*knots)))):
         table.SetTableValue(index, *colour, 1.0)
     return table
 
 
-def grains_actor(poly_data, values, table):
-    scalars = numpy_to_vtk(numpy.ascontiguousarray(values, dtype=float), deep=True)
-    scalars.SetName("colour")
-    poly_data.GetPointData().SetScalars(scalars)
+def step_table(count):
+    """A colour for each of the values 0, 1, …"""
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(max(1, count))
+    table.SetTableRange(-0.5, max(1, count) - 0.5)
+    for index in range(max(1, count)):
+        table.SetTableValue(index, *MATERIALS[index % len(MATERIALS)], 1.0)
+    return table
+
+
+def spheres_actor(poly_data, values, table):
     mapper = vtkOpenGLSphereMapper()
     mapper.SetInputData(poly_data)
     mapper.SetScaleArray("radius")
-    mapper.SetLookupTable(table)
-    mapper.UseLookupTableScalarRangeOn()
+    if table is None:
+        mapper.ScalarVisibilityOff()
+    else:
+        scalars = numpy_to_vtk(numpy.ascontiguousarray(values, dtype=float), deep=True)
+        scalars.SetName("colour")
+        poly_data.GetPointData().SetScalars(scalars)
+        mapper.SetLookupTable(table)
+        mapper.UseLookupTableScalarRangeOn()
     actor = vtkActor()
     actor.SetMapper(mapper)
+    return actor
+
+
+def grains_actor(poly_data, values, table):
+    actor = spheres_actor(poly_data, values, table)
     look = actor.GetProperty()
     look.SetAmbient(0.42)
     look.SetDiffuse(0.78)
     look.SetSpecular(0.15)
     look.SetSpecularPower(25.0)
+    return actor
+
+
+def faint_grains_actor(poly_data):
+    """Grains through which one sees what is behind."""
+    actor = spheres_actor(poly_data, None, None)
+    actor.GetProperty().SetColor(FAINT_GRAIN)
+    actor.GetProperty().SetOpacity(0.25)
+    return actor
+
+
+def chains_actor(contacts, strongest, radius, table):
+    """Contacts as tubes, as thick as their force; one as strong as `strongest` [N] has 0.4 times the
+    radius of a grain."""
+    force = vtk_to_numpy(contacts.GetCellData().GetArray("normal_force")).astype(float)
+    ends = vtk_to_numpy(contacts.GetPoints().GetData()).reshape(-1, 2, 3)
+    drawn = force > 0.02 * strongest
+    force, ends = force[drawn], ends[drawn]
+    lines = vtkPolyData()
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(numpy.ascontiguousarray(ends.reshape(-1, 3)), deep=True))
+    lines.SetPoints(points)
+    cells = vtkCellArray()
+    pairs = numpy.arange(2 * len(force), dtype=numpy.int64)
+    cells.SetData(2, numpy_to_vtkIdTypeArray(pairs, deep=True))
+    lines.SetLines(cells)
+    share = numpy.repeat(numpy.minimum(force / strongest, 1.5), 2)
+    thickness = numpy_to_vtk(0.4 * radius * numpy.maximum(share, 0.08), deep=True)
+    thickness.SetName("thickness")
+    lines.GetPointData().SetScalars(thickness)
+    shown_force = numpy_to_vtk(numpy.repeat(force, 2), deep=True)
+    shown_force.SetName("force")
+    lines.GetPointData().AddArray(shown_force)
+    tubes = vtkTubeFilter()
+    tubes.SetInputData(lines)
+    tubes.SetVaryRadiusToVaryRadiusByAbsoluteScalar()
+    tubes.SetNumberOfSides(10)
+    tubes.CappingOn()
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(tubes.GetOutputPort())
+    mapper.SetScalarModeToUsePointFieldData()
+    mapper.SelectColorArray("force")
+    mapper.SetLookupTable(table)
+    mapper.UseLookupTableScalarRangeOn()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetAmbient(0.35)
+    actor.GetProperty().SetDiffuse(0.75)
     return actor
 
 
@@ -153,15 +283,55 @@ def wall_actors(poly_data, line_width):
     return [faces, lines]
 
 
-def cut_off_far_away(actor, points):
-    """Hides what lies far outside the box of the points, as a plane may be very large."""
-    beyond = 0.12 * numpy.linalg.norm(numpy.ptp(points, axis=0))
-    for axis in numpy.eye(3):
-        for inwards in (axis, -axis):
-            plane = vtkPlane()
-            plane.SetNormal(inwards)
-            plane.SetOrigin(((points @ inwards).min() - beyond) * inwards)
-            actor.GetMapper().AddClippingPlane(plane)
+def plane_actor(point, normal, setting):
+    """A plane as a large square round what is to be seen."""
+    middle = (setting.points.min(axis=0) + setting.points.max(axis=0)) / 2
+    middle = middle - ((middle - point) @ normal) * normal
+    side = 4 * numpy.linalg.norm(numpy.ptp(setting.points, axis=0))
+    u = numpy.cross(normal, numpy.eye(3)[numpy.argmin(numpy.abs(normal))])
+    u /= numpy.linalg.norm(u)
+    v = numpy.cross(normal, u)
+    square = polygon([middle + side * (a * u + b * v) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(square)
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(WALL)
+    actor.GetProperty().SetOpacity(0.16)
+    actor.GetProperty().LightingOff()
+    return actor
+
+
+def polygon(corners):
+    """One polygon as vtkPolyData."""
+    points = vtkPoints()
+    for corner in corners:
+        points.InsertNextPoint(*corner)
+    cells = vtkCellArray()
+    cells.InsertNextCell(len(corners), list(range(len(corners))))
+    poly_data = vtkPolyData()
+    poly_data.SetPoints(points)
+    poly_data.SetPolys(cells)
+    return poly_data
+
+
+def cut_off(actor, setting, beyond, clipped=True):
+    """Hides what lies far outside the box of the points, and where it is clipped what the clip plane cuts away.
+
+    beyond: how far, by the diagonal of the box
+    """
+    beyond = beyond * numpy.linalg.norm(numpy.ptp(setting.points, axis=0))
+    sides = [(((setting.points @ inwards).min() - beyond) * inwards, inwards)
+             for axis in numpy.eye(3) for inwards in (axis, -axis)]
+    if setting.clip and clipped:
+        # VTK has six clipping planes: that of the user is in place of the one that faces the same way.
+        sides = [(point, inwards) for point, inwards in sides if inwards @ setting.clip.inwards < 0.5]
+        sides.append(setting.clip)
+    for point, inwards in sides:
+        plane = vtkPlane()
+        plane.SetNormal(inwards)
+        plane.SetOrigin(point)
+        actor.GetMapper().AddClippingPlane(plane)
 
 
 def plain_actor(source, colour):
@@ -184,84 +354,102 @@ def lamps():
         yield lamp
 
 
-def title_line(text, size):
-    line = vtkTextActor()
-    line.SetInput(text)
-    plain_text(line.GetTextProperty(), min(0.029 * size[1], 1.8 * size[0] / len(text)))
+def title_line(words, size):
+    height = min(0.029 * size[1], 1.8 * size[0] / len(words))
+    line = text_actor(words, height, MARGIN * size[0], (1.0 - MARGIN) * size[1])
     line.GetTextProperty().SetVerticalJustificationToTop()
-    line.SetPosition(MARGIN * size[0], (1.0 - MARGIN) * size[1])
     return line
 
 
-def colour_bar(table, colouring, size):
-    """A small bar under the title, with its meaning above and its values below."""
-    bar = vtkScalarBarActor()
-    bar.SetLookupTable(table)
-    bar.SetTitle(colouring.label)
-    bar.SetOrientationToHorizontal()
-    bar.SetTextPositionToPrecedeScalarBar()
-    bar.SetNumberOfLabels(colouring.steps if colouring.steps <= len(MATERIALS) else 3)
-    bar.SetLabelFormat("%.6g")
-    bar.UnconstrainedFontSizeOn()
-    bar.SetVerticalTitleSeparation(size[1] // 200)
-    for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
-        plain_text(text, 0.02 * size[1])
-    bar.SetPosition(MARGIN, 1.0 - MARGIN - BAND)
-    bar.SetWidth(min(0.35, 0.3 * size[1] / size[0]))
-    bar.SetHeight(0.076)
-    bar.SetBarRatio(0.25)
-    return bar
+def label_height(size):
+    """Of all words but the title, in pixels of the drawn picture."""
+    return min(0.022 * size[1], 0.032 * size[0])
 
 
-def plain_text(text, height):
+def colour_bar(table, label, size):
+    """A small bar under the title, with its values and its meaning below."""
+    height = label_height(size)
+    width = min(0.35 * size[0], 0.3 * size[1])
+    left, bottom = MARGIN * size[0], (1.0 - MARGIN - 0.075) * size[1]
+    steps = table.GetNumberOfTableValues()
+    edges = numpy.linspace(0.0, width, steps + 1)
+    points, cells = vtkPoints(), vtkCellArray()
+    for edge in edges:
+        points.InsertNextPoint(edge, 0.0, 0.0)
+        points.InsertNextPoint(edge, height, 0.0)
+    for step in range(steps):
+        cells.InsertNextCell(4, [2 * step, 2 * step + 2, 2 * step + 3, 2 * step + 1])
+    strip = vtkPolyData()
+    strip.SetPoints(points)
+    strip.SetPolys(cells)
+    low, high = table.GetTableRange()
+    strip.GetCellData().SetScalars(numpy_to_vtk(numpy.linspace(low, high, steps), deep=True))
+    mapper = vtkPolyDataMapper2D()
+    mapper.SetInputData(strip)
+    mapper.SetLookupTable(table)
+    mapper.UseLookupTableScalarRangeOn()
+    bar = vtkActor2D()
+    bar.SetMapper(mapper)
+    bar.SetPosition(left, bottom)
+    yield bar
+    below = bottom - 0.008 * size[1]
+    for share in (0.0, 0.5, 1.0):
+        value = text_actor(f"{low + share * (high - low):.3g}", 0.9 * height, left + share * width, below)
+        value.GetTextProperty().SetVerticalJustificationToTop()
+        if share > 0.0:
+            value.GetTextProperty().SetJustificationToCentered()
+        yield value
+    meaning = text_actor(label, height, left + width + 1.4 * height, bottom + 0.5 * height)
+    meaning.GetTextProperty().SetVerticalJustificationToCentered()
+    yield meaning
+
+
+def legend(names, size):
+    """Under the title a square in its colour for each name, and the name."""
+    height = label_height(size)
+    left, bottom = MARGIN * size[0], (1.0 - MARGIN - 0.075) * size[1]
+    for index, name in enumerate(names):
+        square = vtkActor2D()
+        mapper = vtkPolyDataMapper2D()
+        mapper.SetInputData(polygon([(0, 0, 0), (height, 0, 0), (height, height, 0), (0, height, 0)]))
+        square.SetMapper(mapper)
+        square.SetPosition(left, bottom)
+        square.GetProperty().SetColor(MATERIALS[index % len(MATERIALS)])
+        yield square
+        text = text_actor(name, height, left + 1.4 * height, bottom + 0.5 * height)
+        text.GetTextProperty().SetVerticalJustificationToCentered()
+        yield text
+        left += height * (3.0 + 0.6 * len(name))
+
+
+def text_actor(words, height, left, bottom):
+    """Words at a place of the drawn picture, in its pixels."""
+    actor = vtkTextActor()
+    actor.SetInput(words)
+    text = actor.GetTextProperty()
     text.SetFontFamilyToArial()
     text.SetFontSize(round(height))
     text.SetColor(INK)
     text.BoldOff()
     text.ItalicOff()
     text.ShadowOff()
+    actor.SetPosition(left, bottom)
+    return actor
 
 
-def view_axes(view):
-    """Unit vectors to the right, upwards in the picture, and towards the eye."""
-    towards_eye, up = (numpy.array(vector) / numpy.linalg.norm(vector) for vector in VIEWS[view])
-    right = numpy.cross(up, towards_eye)
-    right /= numpy.linalg.norm(right)
-    return right, numpy.cross(towards_eye, right), towards_eye
-
-
-def aim_camera(camera, setting, size):
-    """Moves back from the points along the view until all of them lie in the picture, below the band at the top."""
-    right, above, towards_eye = view_axes(setting.view)
+def aim_camera(camera, setting):
+    """Moves back from the points along the view until all of them lie in the picture, below the band at the top; then
+    nearer by the zoom."""
+    size, view = setting.size, setting.view
     middle = (setting.points.min(axis=0) + setting.points.max(axis=0)) / 2
-    x, y, depth = ((setting.points - middle) @ axis for axis in (right, above, towards_eye))
+    x, y, depth = ((setting.points - middle) @ axis for axis in view)
     slope = numpy.tan(numpy.radians(VIEW_ANGLE / 2))  # half a picture's height at unit distance
     across, upwards = slope * (1 - 2 * MARGIN) * size[0] / size[1], slope * (1 - 2 * MARGIN - BAND)
     distance = (depth + numpy.maximum(numpy.abs(x) / across, numpy.abs(y) / upwards)).max()
-    camera.SetViewAngle(VIEW_ANGLE)
+    if setting.center is not None:
+        middle = setting.center
+    camera.SetViewAngle(2 * numpy.degrees(numpy.arctan(slope / setting.zoom)))
     camera.SetFocalPoint(middle)
-    camera.SetPosition(middle + distance * towards_eye)
-    camera.SetViewUp(above)
+    camera.SetPosition(middle + distance * view.towards_eye)
+    camera.SetViewUp(view.above)
     camera.SetWindowCenter(0.0, BAND)
-
-
-def png(renderer, size):
-    """The picture as the bytes of a PNG file."""
-    window = vtkRenderWindow()
-    window.OffScreenRenderingOn()
-    window.SetSize(*size)
-    window.SetMultiSamples(0)
-    window.AlphaBitPlanesOn()  # for the depth peeling
-    window.AddRenderer(renderer)
-    drawn = vtkWindowToImageFilter()
-    drawn.SetInput(window)
-    drawn.ReadFrontBufferOff()
-    shown = vtkImageShrink3D()
-    shown.SetInputConnection(drawn.GetOutputPort())
-    shown.SetShrinkFactors(OVERSAMPLING, OVERSAMPLING, 1)
-    shown.MeanOn()
-    writer = vtkPNGWriter()
-    writer.SetInputConnection(shown.GetOutputPort())
-    writer.WriteToMemoryOn()
-    writer.Write()
-    return bytes(vtk_to_numpy(writer.GetResult()))

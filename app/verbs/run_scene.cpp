@@ -76,6 +76,16 @@ void print_incidents(const RunSummary& summary, const fs::path& folder, const st
     if (summary.incidents.size() > told) warn("and {} more, see summary.json\n", summary.incidents.size() - told);
 }
 
+/// Names the command that makes a picture of the run, by the shorter of its paths.
+void advise_to_look(const fs::path& folder)
+{
+    const fs::path script = fs::path(TALUS_SCENARIOS_FOLDER).parent_path() / "postprocess" / "render.py";
+    std::error_code error;
+    if (!fs::exists(script, error)) return;
+    const std::string from_here = fs::proximate(script, error).string();
+    say("to see it: {} {}\n", from_here.size() < script.string().size() ? from_here : script.string(), folder.string());
+}
+
 /// Runs what is ready to run, writes summary.json and tells how it went.
 ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const std::filesystem::path& folder, Verbosity verbosity)
 {
@@ -85,7 +95,10 @@ ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const std::filesys
     if (verbosity != Verbosity::quiet) print_results(summary);
     print_incidents(summary, folder, opened.report.world);
     if (!end.incidents.empty()) return ExitCode::physics;
-    if (end.signal == 0) return ExitCode::done;
+    if (end.signal == 0) {
+        if (verbosity != Verbosity::quiet) advise_to_look(folder);
+        return ExitCode::done;
+    }
     warn("stopped by SIG{} at t = {:.6g} s after a checkpoint; to go on: talus resume {}\n", sigabbrev_np(end.signal),
         summary.simulated_time, folder.string());
     return stopped_by(end.signal);

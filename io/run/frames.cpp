@@ -203,12 +203,9 @@ void FrameWriter::add_frame(Series& series, double time, vtkPolyData& geometry)
 
 void FrameWriter::write_list(const Series& series) const
 {
-    std::string list = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
-    for (std::size_t k = 0; k < series.times.size(); ++k)
-        list += fmt::format(
-            "    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", series.times[k], frame_file(series.name, k));
-    list += "  </Collection>\n</VTKFile>\n";
-    write_atomically(folder_ / (series.name + ".pvd"), list);
+    std::vector<ListedFrame> list;
+    for (std::size_t k = 0; k < series.times.size(); ++k) list.push_back({series.times[k], frame_file(series.name, k)});
+    write_atomically(folder_ / (series.name + ".pvd"), frame_list(list));
 }
 
 void FrameWriter::cut_back() const

@@ -64,4 +64,12 @@ std::string vtp_bytes(vtkPolyData& geometry, double time)
     return writer->GetOutputString();
 }
 
+std::string frame_list(const std::vector<ListedFrame>& frames)
+{
+    std::string list = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+    for (const ListedFrame& frame : frames)
+        list += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, frame.file);
+    return list + "  </Collection>\n</VTKFile>\n";
+}
+
 } // namespace talus

@@ -69,4 +69,13 @@ void add_point_cell(vtkPolyData& geometry, std::size_t count);
 /// @throws std::bad_alloc; OutputError where VTK fails
 std::string vtp_bytes(vtkPolyData& geometry, double time);
 
+/// A frame as a .pvd lists it.
+struct ListedFrame {
+    double time; ///< [s]
+    std::string file;
+};
+
+/// The text of a .pvd file.
+std::string frame_list(const std::vector<ListedFrame>& frames);
+
 } // namespace talus

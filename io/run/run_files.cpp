@@ -130,14 +130,6 @@ std::string unit_suffix(std::string unit)
     return above == "1" ? fmt::format("_per_{}", below) : fmt::format("_{}_per_{}", above, below);
 }
 
-std::string csv_field(const std::string& name)
-{
-    if (name.find_first_of(",\"\n") == std::string::npos) return name;
-    std::string quoted;
-    for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return fmt::format("\"{}\"", quoted);
-}
-
 std::string header_line(const std::vector<std::string>& columns)
 {
     std::vector<std::string> fields;
@@ -196,6 +188,14 @@ void write_atomically(const fs::path& path, std::initializer_list<std::string_vi
     const std::string reason = std::strerror(failure != 0 ? failure : errno);
     ::unlink(temporary.c_str());
     refuse_output(path, reason);
+}
+
+std::string csv_field(const std::string& name)
+{
+    if (name.find_first_of(",\"\n") == std::string::npos) return name;
+    std::string quoted;
+    for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return fmt::format("\"{}\"", quoted);
 }
 
 std::string column_name(const std::string& name, const std::string& unit)

@@ -40,6 +40,9 @@ void write_atomically(const std::filesystem::path& path, std::string_view text);
 /// The same for a file in parts, one after the other.
 void write_atomically(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
 
+/// A name as a field of a CSV file: in quotes where it must be.
+std::string csv_field(const std::string& name);
+
 /// A name with its unit, as columns are called: mass_flow_kg_per_s.
 std::string column_name(const std::string& name, const std::string& unit);
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/sphere_file.hpp"
 
-#include "io/scene/quiet_vtk.hpp"
+#include "io/scene/vtk_file.hpp"
 #include "io/text/csv.hpp"
 #include "io/text/input_error.hpp"
-#include "io/text/input_file.hpp"
 
 #include <vtkDataArray.h>
-#include <vtkErrorCode.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
@@ -19,7 +17,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <exception>
 #include <numeric>
 
 namespace talus
@@ -53,26 +50,6 @@ scene::SphereList in_order_of_ids(ListedSpheres listed)
     reorder(listed.spheres.velocities, order);
     reorder(listed.spheres.angular_velocities, order);
     return std::move(listed.spheres);
-}
-
-/// The points of a VTK XML file with their arrays.
-template <class Reader> vtkSmartPointer<vtkPointSet> read_points(const std::filesystem::path& path)
-{
-    require_file(path, "a VTK file");
-    const QuietVtk vtk;
-    vtkNew<Reader> reader;
-    reader->SetFileName(path.c_str());
-    std::string error;
-    try {
-        reader->Update();
-        error = vtk.sentence();
-        if (error.empty() && reader->GetErrorCode() != vtkErrorCode::NoError)
-            error = vtkErrorCode::GetStringFromErrorCode(reader->GetErrorCode());
-    } catch (const std::exception&) { // lists longer than there can be, or than there is memory for
-        error = "its sizes are too large to be true";
-    }
-    if (!error.empty()) throw InputError(fmt::format("{}: VTK cannot read it: {}", path.string(), error));
-    return reader->GetOutput();
 }
 
 /// The arrays of a VTK file, by name.
@@ -145,8 +122,11 @@ private:
 
 ListedSpheres read_vtk(const std::filesystem::path& path)
 {
-    const auto points = path.extension() == ".vtp" ? read_points<vtkXMLPolyDataReader>(path)
-                                                   : read_points<vtkXMLUnstructuredGridReader>(path);
+    vtkSmartPointer<vtkPointSet> points;
+    if (path.extension() == ".vtp")
+        points = read_vtk_file<vtkXMLPolyDataReader>(path, "a VTK file");
+    else
+        points = read_vtk_file<vtkXMLUnstructuredGridReader>(path, "a VTK file");
     const PointArrays arrays(path.string(), *points);
     if (points->GetNumberOfPoints() == 0) arrays.refuse("it has no points");
     ListedSpheres listed;

@@ -28,7 +28,7 @@ TEST_CASE("every verb has help with an example", "[app][command line]")
 {
     const Workplace place;
     const std::string verb =
-        GENERATE(as<std::string>{}, "run", "resume", "check", "keys", "list", "dump", "solve", "study");
+        GENERATE(as<std::string>{}, "run", "resume", "check", "keys", "list", "dump", "solve", "study", "export");
     const Outcome outcome = place.talus(verb + " --help");
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.out, Contains("Example: talus " + verb));
