@@ -16,20 +16,13 @@ from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLSphereMapper
 
 from camera import Clip, View
 from colours import Colouring
+from palette import FAINT_GRAIN, FORCES, INK, MATERIALS, RAMP, WALL
 
 VIEW_ANGLE = 20.0  # degrees; narrow, so that parallels nearly stay parallel
 OVERSAMPLING = 2  # drawn pixels across a shown one, as the sphere mapper leaves outlines jagged
 MARGIN, BAND = 0.03, 0.12  # shares of the picture left free all round, and at the top for title and colour bar
 BEYOND = 0.12  # how far walls are drawn round what is to be seen, by its diagonal …
 PLANE_BEYOND = 1.5  # … and planes, which have no end
-
-INK = (0.16, 0.17, 0.20)
-WALL = (0.50, 0.57, 0.66)
-SAND = (0.94, 0.81, 0.63)
-FAINT_GRAIN = (0.80, 0.80, 0.80)
-RAMP = ((0.0, SAND), (0.3, (0.97, 0.67, 0.36)), (0.65, (0.82, 0.28, 0.33)), (1.0, (0.35, 0.14, 0.48)))
-FORCES = ((0.0, (0.62, 0.72, 0.82)), (0.35, (0.25, 0.45, 0.70)), (0.7, (0.55, 0.20, 0.45)), (1.0, (0.75, 0.10, 0.15)))
-MATERIALS = (SAND, (0.42, 0.60, 0.75), (0.80, 0.45, 0.36), (0.52, 0.66, 0.45), (0.60, 0.50, 0.68))
 
 
 class Setting(NamedTuple):
@@ -138,11 +131,7 @@ class Painter:
             self._add_flat(colour_bar(table, "normal force [N]", self.drawn_size))
             return
         colouring = setting.colouring
-        colours = MATERIALS if colouring.names else RAMP
-        if colouring.names:
-            table = step_table(len(colouring.names))
-        else:
-            table = ramp_table(colouring.low, colouring.high, colours)
+        table = step_table(len(colouring.names)) if colouring.names else ramp_table(colouring.low, colouring.high, RAMP)
         renderer.AddActor(grains_actor(content.grains, content.values, table))
         darken_crevices(renderer, radius)
         if colouring.names:

@@ -8,19 +8,29 @@
 It needs Debian's paraview and ParaView's Python modules. Exit codes: 0 done, 2 something is missing or wrong.
 """
 import os
-import re
 import shutil
 import sys
-import tomllib
 from pathlib import Path
 
-try:
-    from paraview import simple
-except ImportError:
-    simple = None  # as in Debian's Python: this starts ParaView, in which it runs again
+# The script starts ParaView, in which it runs again; there it gets no arguments, but is told by these.
+RUN, PICTURE, HOME = "TALUS_VIEW_RUN", "TALUS_VIEW_PICTURE", "TALUS_VIEW_HOME"
+simple = None
+if RUN in os.environ:
+    sys.path.insert(0, os.environ[HOME])
+    try:
+        from paraview import simple
 
-RUN, PICTURE = "TALUS_VIEW_RUN", "TALUS_VIEW_PICTURE"  # what the script in ParaView is told: it gets no arguments
-WALL = [0.50, 0.57, 0.66]
+        import camera
+        import colours
+        import palette
+        import survey
+        from read_run import Run
+    except ImportError:
+        simple = None  # told below
+
+WALL_OPACITY = 0.25
+CAMERA_ANGLE = 20.0  # degrees
+PICTURE_SIZE = [900, 900]
 
 
 class ViewError(Exception):
@@ -39,6 +49,7 @@ def start(arguments):
     if not shutil.which(program):
         raise ViewError(f"There is no {program}: apt install --no-install-recommends paraview.")
     os.environ[RUN] = str(run.resolve())
+    os.environ[HOME] = str(Path(__file__).resolve().parent)
     os.environ[PICTURE] = str(Path(picture).resolve()) if picture else ""
     script = str(Path(__file__).resolve())
     command = [program, script] if picture else [program, f"--script={script}"]
@@ -46,18 +57,37 @@ def start(arguments):
         if not shutil.which("xvfb-run"):
             raise ViewError("There is no screen (DISPLAY is not set) and no xvfb-run to stand in for it: apt install xvfb "
                             "xauth.")
-        command = ["xvfb-run", "-a", *command]
+        # ParaView closes its first connection; a server that then begins anew would refuse the next
+        command = ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset", *command]
     os.execvp(command[0], command)
 
 
 def series(run, name):
     """A reader of one of the run's series of frames; None where the run has none."""
-    path = run / f"{name}.pvd"
+    path = run.folder / f"{name}.pvd"
     return simple.PVDReader(registrationName=name, FileName=str(path)) if path.is_file() else None
 
 
-def show_grains(run, view):
-    """Spheres of their radius, which the graphics card draws from points."""
+def set_colours(shown, view, name, ramp, colouring):
+    """Colours what is shown by a ramp between the limits of a colouring, with a small bar at the top."""
+    table = simple.GetColorTransferFunction(name)
+    span = colouring.high - colouring.low
+    table.RGBPoints = [number for place, colour in ramp for number in (colouring.low + place * span, *colour)]
+    table.ColorSpace = "RGB"
+    table.AutomaticRescaleRangeMode = "Never"
+    bar = simple.GetScalarBar(table, view)
+    bar.Title, bar.ComponentTitle = colouring.label, ""
+    bar.TitleColor = bar.LabelColor = palette.INK
+    bar.TitleFontSize = bar.LabelFontSize = 14
+    bar.Orientation, bar.WindowLocation = "Horizontal", "Upper Left Corner"
+    bar.ScalarBarLength, bar.ScalarBarThickness = 0.25, 12
+    bar.AutomaticLabelFormat = 0
+    bar.LabelFormat = bar.RangeLabelFormat = "%.3g"
+    shown.SetScalarBarVisibility(view, True)
+
+
+def show_grains(run, view, frames):
+    """Spheres of their radius, which the graphics card draws from points, coloured by speed where frames tell it."""
     grains = series(run, "particles")
     shown = simple.Show(grains, view)
     shown.SetRepresentationType("Point Gaussian")
@@ -66,14 +96,14 @@ def show_grains(run, view):
     shown.ScaleByArray = 1
     shown.SetScaleArray = ["POINTS", "radius"]
     shown.UseScaleFunction = 0
-    point_arrays = grains.PointData.keys()
-    if "velocity" in point_arrays:
+    if "velocity" in grains.PointData.keys():
         simple.ColorBy(shown, ("POINTS", "velocity", "Magnitude"))
-        shown.RescaleTransferFunctionToDataRangeOverTime()
-        shown.SetScalarBarVisibility(view, True)
-        bar = simple.GetScalarBar(simple.GetColorTransferFunction("velocity"), view)
-        bar.Title, bar.ComponentTitle = "speed [m/s]", ""
-        bar.TitleColor = bar.LabelColor = [0.0, 0.0, 0.0]
+        speeds = [speed for frame in frames for speed in colours.grain_values(frame, "velocity")]
+        set_colours(shown, view, "velocity", palette.RAMP,
+                    colours.colouring("velocity", colours.numpy.array(speeds), [], None))
+    else:
+        shown.ColorArrayName = [None, ""]
+        shown.DiffuseColor = palette.SAND
     return grains
 
 
@@ -85,62 +115,59 @@ def show_walls(run, view):
         shown = simple.Show(walls, view)
         shown.SetRepresentationType("Surface")
         shown.ColorArrayName = [None, ""]  # one colour
-        shown.DiffuseColor = shown.AmbientColor = WALL
-        shown.Opacity = 0.25
+        shown.DiffuseColor = shown.AmbientColor = palette.WALL
+        shown.Opacity = WALL_OPACITY
 
 
-def show_contacts(run, view):
-    """Tubes by their force; there at hand, but not shown at first, as they would hide in the grains."""
+def show_contacts(run, view, frames):
+    """Tubes as thick as their force, ready in the pipeline but hidden, as they lie inside the grains: to see them, hide
+    the grains or make them translucent."""
     contacts = series(run, "contacts")
     if contacts is None or "normal_force" not in contacts.CellData.keys():
         return
-    at_points = simple.CellDatatoPointData(registrationName="contact forces", Input=contacts)
-    at_points.PassCellData = 1
-    tubes = simple.Tube(registrationName="force chains", Input=at_points)
+    radius = sum(sum(frame.GetPointData().GetArray("radius").GetRange()) / 2 for frame in frames) / len(frames)
+    at_ends = simple.CellDatatoPointData(registrationName="forces at ends", Input=contacts)
+    tubes = simple.Tube(registrationName="force chains", Input=at_ends)
     tubes.Scalars = ["POINTS", "normal_force"]
     tubes.VaryRadius = "By Scalar"
+    tubes.Radius, tubes.RadiusFactor = 0.05 * radius, 8.0
     tubes.NumberofSides = 8
-    tubes.Radius = 0.05 * mean_diameter(run)
-    tubes.RadiusFactor = 8.0
     shown = simple.Show(tubes, view)
     simple.ColorBy(shown, ("POINTS", "normal_force"))
-    simple.Hide(tubes, view)
-    simple.Hide(contacts, view)
+    for hidden in (contacts, at_ends, tubes):
+        simple.Hide(hidden, view)
 
 
-def mean_diameter(run):
-    """Of the spheres of the last frame [m]."""
-    grains = simple.FindSource("particles")
-    times = grains.TimestepValues
-    grains.UpdatePipeline(times[-1] if hasattr(times, "__len__") else times)
-    low, high = grains.PointData["radius"].GetRange()
-    return low + high
-
-
-def look_along(run, view):
-    """From the front, with gravity downwards, as in the pictures of render.py."""
-    with open(run / "scene.resolved.toml", "rb") as file:
-        gravity = tomllib.load(file)["world"]["gravity"]
-    size = sum(component ** 2 for component in gravity) ** 0.5
-    up = [-component / size for component in gravity] if size > 0 else [0.0, 0.0, 1.0]
-    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0.0, -1.0, 0.2], [0.0, 0.0, 0.0], up
-    simple.ResetCamera(view)
+def aim(run, view, frames):
+    """As the pictures of render.py, at the room that the grains take during the run."""
+    points = survey.box_corners(colours.numpy.concatenate([survey.grain_corners(frame) for frame in frames]))
+    chosen = camera.chosen_view("auto", run.scene(), points)
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    distance = 0.65 * survey.diagonal(points) / colours.numpy.tan(colours.numpy.radians(CAMERA_ANGLE / 2))
+    view.CameraViewAngle = CAMERA_ANGLE
+    view.CameraFocalPoint = list(middle)
+    view.CameraPosition = list(middle + distance * chosen.towards_eye)
+    view.CameraViewUp = list(chosen.above)
+    view.CenterOfRotation = list(middle)
 
 
 def set_up(run):
     """The run in ParaView's view, at its last frame."""
+    frames = [frame for frame in survey.surveyed(run.frames()) if frame.GetNumberOfPoints()]
+    simple._DisableFirstRenderCameraReset()  # as ParaView's own scripts do: the camera stays as it is aimed
     view = simple.GetActiveViewOrCreate("RenderView")
     view.UseColorPaletteForBackground = 0
     view.Background = [1.0, 1.0, 1.0]
-    view.OrientationAxesLabelColor = [0.0, 0.0, 0.0]
-    grains = show_grains(run, view)
+    view.OrientationAxesLabelColor = palette.INK
+    grains = show_grains(run, view, frames)
     show_walls(run, view)
-    show_contacts(run, view)
+    show_contacts(run, view, frames)
     simple.SetActiveSource(grains)
     scene = simple.GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()
     scene.GoToLast()
-    look_along(run, view)
+    if frames:
+        aim(run, view, frames)
     simple.Render(view)
     return view
 
@@ -151,9 +178,10 @@ def main():
     if simple is None:
         raise ViewError("ParaView finds no Python modules of its own: apt install python3-paraview, or, beside libvtk9-dev, "
                         "as postprocess/README.md says.")
-    view = set_up(Path(os.environ[RUN]))
+    view = set_up(Run(os.environ[RUN]))
     if picture := os.environ.get(PICTURE):
-        simple.SaveScreenshot(picture, view, ImageResolution=[900, 900])
+        view.ViewSize = PICTURE_SIZE
+        simple.SaveScreenshot(picture, view, ImageResolution=PICTURE_SIZE)
         print(picture)
 
 

@@ -32,10 +32,10 @@ import grain_picture as picture
 from colours import array, colouring, grain_values, round_up
 from film import ENCODERS, Film, require_ffmpeg
 from read_run import Run, RunError, read_frame
+from survey import box_corners, diagonal, grain_corners, points_of, surveyed
 
-SURVEYED_FRAMES = 10  # frames looked at for what all pictures of a run share, spread evenly over it
 LARGE_WALL = 2.0  # a wall larger than this times the room that the grains take is not fitted into the picture
-CHAIN_SHARE = 0.995  # of the contacts are no stronger than the thickest chains
+CHAIN_SHARE = 0.97  # of the contacts are no stronger than the thickest chains
 
 
 def picture_size(text):
@@ -169,21 +169,6 @@ def start_under_xvfb():
     os.execvp("xvfb-run", ["xvfb-run", "-a", sys.executable, *sys.argv])
 
 
-def points_of(poly_data):
-    """The points, one a row."""
-    if not poly_data.GetNumberOfPoints():
-        return numpy.empty((0, 3))
-    return vtk_to_numpy(poly_data.GetPoints().GetData())
-
-
-def grain_corners(grains):
-    """Lowest and highest corner of the box around the grains; no rows where there are none."""
-    if not grains.GetNumberOfPoints():
-        return numpy.empty((0, 3))
-    centres, radii = points_of(grains), array(grains, "radius")[:, None]
-    return numpy.array([(centres - radii).min(axis=0), (centres + radii).max(axis=0)])
-
-
 def some_grains(grains, kept):
     """Those of the grains for which `kept` holds, with their radii alone."""
     chosen = vtkPolyData()
@@ -266,21 +251,6 @@ class Walls:
         cells.SetData(3, numpy_to_vtkIdTypeArray(numpy.arange(3 * len(self.triangles), dtype=numpy.int64), deep=True))
         poly_data.SetPolys(cells)
         return poly_data
-
-
-def diagonal(points):
-    return float(numpy.linalg.norm(numpy.ptp(points, axis=0))) if len(points) else 0.0
-
-
-def box_corners(points):
-    """The eight corners of the box around the points."""
-    return numpy.array(numpy.meshgrid(*zip(points.min(axis=0), points.max(axis=0)))).reshape(3, 8).T
-
-
-def surveyed(frames):
-    """Some of the frames, spread evenly."""
-    spread = numpy.unique(numpy.linspace(0, len(frames) - 1, SURVEYED_FRAMES).round().astype(int))
-    return [read_frame(frames[index]) for index in spread]
 
 
 def strongest_chain(run):

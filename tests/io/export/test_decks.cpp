@@ -5,7 +5,11 @@
 #include "scenarios/build/build_scene.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <sstream>
 
 using namespace talus;
