@@ -44,7 +44,8 @@ class Content(NamedTuple):
     title: str
     grains: vtkPolyData  # with the array `radius`
     values: numpy.ndarray  # what colours each of the grains
-    walls: vtkPolyData  # triangles, without those of planes
+    walls: vtkPolyData  # triangles, without those of planes and of …
+    wall_grains: vtkPolyData  # … walls of grains
     planes: list  # a point and a normal of each
     contacts: vtkPolyData = None  # lines with `normal_force`, drawn as tubes, with the grains faint
 
@@ -102,10 +103,15 @@ class Painter:
             for actor in wall_actors(content.walls, line_width=max(self.drawn_size) / 700):
                 cut_off(actor, setting, BEYOND)
                 renderer.AddActor(actor)
+        if content.wall_grains.GetNumberOfCells():
+            actor = wall_faces(content.wall_grains, feature_angle=180.0)
+            cut_off(actor, setting, BEYOND)
+            renderer.AddActor(actor)
         for point, normal in content.planes:
             actor = plane_actor(point, normal, setting)
             cut_off(actor, setting, PLANE_BEYOND, clipped=abs(normal @ setting.view.above) < 0.7)
             renderer.AddActor(actor)
+        renderer.AddActor2D(white_edge(self.drawn_size))
         renderer.AddActor2D(title_line(content.title, self.drawn_size))
         renderer.ResetCameraClippingRange()
         drawn = vtkWindowToImageFilter()
@@ -250,21 +256,34 @@ def darken_crevices(renderer, radius):
     renderer.SetSSAOBlur(True)
 
 
-def wall_actors(poly_data, line_width):
-    """Walls as translucent faces, with their rims and sharp edges as lines."""
-    merged = vtkCleanPolyData()  # corners shared, or every edge would be a rim
+def merged_corners(poly_data):
+    """Triangles that share their corners, or every edge would be a rim."""
+    merged = vtkCleanPolyData()
     merged.SetInputData(poly_data)
+    merged.Update()
+    return merged.GetOutput()
+
+
+def wall_faces(poly_data, feature_angle):
+    """The faces of walls, shaded as if they were smooth where they meet at less than the angle [degrees]."""
     smooth = vtkPolyDataNormals()
-    smooth.SetInputConnection(merged.GetOutputPort())
-    smooth.SetFeatureAngle(20.0)
+    smooth.SetInputData(merged_corners(poly_data))
+    smooth.SetFeatureAngle(feature_angle)
+    smooth.Update()
     faces = plain_actor(smooth, WALL)
-    faces.GetProperty().SetOpacity(0.16)
     faces.GetProperty().SetAmbient(0.5)
     faces.GetProperty().SetDiffuse(0.5)
+    return faces
 
+
+def wall_actors(poly_data, line_width):
+    """Walls as translucent faces, with their rims and sharp edges as lines."""
+    faces = wall_faces(poly_data, feature_angle=20.0)
+    faces.GetProperty().SetOpacity(0.16)
     edges = vtkFeatureEdges()
-    edges.SetInputConnection(merged.GetOutputPort())
+    edges.SetInputData(merged_corners(poly_data))
     edges.SetFeatureAngle(20.0)
+    edges.Update()
     lines = plain_actor(edges, INK)
     lines.GetProperty().SetOpacity(0.55)
     lines.GetProperty().SetLineWidth(line_width)
@@ -324,8 +343,9 @@ def cut_off(actor, setting, beyond, clipped=True):
 
 
 def plain_actor(source, colour):
+    """What a filter has made, in one colour."""
     mapper = vtkPolyDataMapper()
-    mapper.SetInputConnection(source.GetOutputPort())
+    mapper.SetInputData(source.GetOutput())
     mapper.ScalarVisibilityOff()
     actor = vtkActor()
     actor.SetMapper(mapper)
@@ -341,6 +361,18 @@ def lamps():
         lamp.SetPosition(position)
         lamp.SetIntensity(intensity)
         yield lamp
+
+
+def white_edge(size):
+    """A strip over the upper edge: there the shade of what the lower edge cuts appears again."""
+    height = 0.5 * MARGIN * size[1]
+    mapper = vtkPolyDataMapper2D()
+    mapper.SetInputData(polygon([(0, 0, 0), (size[0], 0, 0), (size[0], height, 0), (0, height, 0)]))
+    strip = vtkActor2D()
+    strip.SetMapper(mapper)
+    strip.SetPosition(0, size[1] - height)
+    strip.GetProperty().SetColor(1.0, 1.0, 1.0)
+    return strip
 
 
 def title_line(words, size):

@@ -210,12 +210,13 @@ def some_contacts(contacts, clip_plane):
 
 
 class Walls:
-    """The walls of one moment: triangles, and apart from them the planes, which have no end."""
+    """The walls of one moment: triangles, and apart from them the planes, which have no end, and walls of grains."""
 
     def __init__(self, run, moment):
         shapes = [wall["shape"] for wall in run.scene().get("wall", [])]
         self.triangles = numpy.empty((0, 3, 3))
         self.wall = numpy.empty(0, int)  # of each triangle
+        self.is_grain = numpy.empty(0, bool)  # whether it belongs to a wall of grains
         self.planes = []  # a point and a normal of each
         for series in ("walls", "moving_walls"):
             frames = [frame for frame in run.frames(series) if frame.time <= moment + 1e-9]
@@ -225,10 +226,12 @@ class Walls:
     def _add(self, walls, shapes):
         corners = points_of(walls)[vtk_to_numpy(walls.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
         of_triangle = vtk_to_numpy(walls.GetCellData().GetArray("wall"))
-        is_plane = numpy.array([shapes[wall] == "plane" for wall in of_triangle])
-        self.triangles = numpy.concatenate([self.triangles, corners[~is_plane]])
-        self.wall = numpy.concatenate([self.wall, of_triangle[~is_plane]])
-        for wall in numpy.unique(of_triangle[is_plane]):
+        shape = numpy.array([shapes[wall] for wall in of_triangle])
+        others = shape != "plane"
+        self.triangles = numpy.concatenate([self.triangles, corners[others]])
+        self.wall = numpy.concatenate([self.wall, of_triangle[others]])
+        self.is_grain = numpy.concatenate([self.is_grain, shape[others] == "grains"])
+        for wall in numpy.unique(of_triangle[shape == "plane"]):
             a, b, c = corners[of_triangle == wall][0].astype(float)
             normal = numpy.cross(b - a, c - a)
             self.planes.append((a, normal / numpy.linalg.norm(normal)))
@@ -241,14 +244,15 @@ class Walls:
             boxes.append(numpy.array([of_wall.min(axis=0), of_wall.max(axis=0)]))
         return numpy.concatenate([box for box in boxes if diagonal(box) <= largest] or [numpy.empty((0, 3))])
 
-    def poly_data(self):
-        """The triangles as vtkPolyData."""
+    def poly_data(self, of_grains):
+        """The triangles of walls of grains, or those of the others, as vtkPolyData."""
+        triangles = self.triangles[self.is_grain == of_grains]
         poly_data = vtkPolyData()
         points = vtkPoints()
-        points.SetData(numpy_to_vtk(numpy.ascontiguousarray(self.triangles.reshape(-1, 3)), deep=True))
+        points.SetData(numpy_to_vtk(numpy.ascontiguousarray(triangles.reshape(-1, 3)), deep=True))
         poly_data.SetPoints(points)
         cells = vtkCellArray()
-        cells.SetData(3, numpy_to_vtkIdTypeArray(numpy.arange(3 * len(self.triangles), dtype=numpy.int64), deep=True))
+        cells.SetData(3, numpy_to_vtkIdTypeArray(numpy.arange(3 * len(triangles), dtype=numpy.int64), deep=True))
         poly_data.SetPolys(cells)
         return poly_data
 
@@ -299,7 +303,8 @@ def content_of(run, frame, contacts, setting, arguments):
     walls = Walls(run, frame.time)
     return picture.Content(
         f"{run.title()},  t = {frame.time:.3f} s", some_grains(grains, kept) if len(centres) else grains, values[kept],
-        walls.poly_data(), walls.planes, some_contacts(read_frame(contacts), setting.clip) if contacts else None)
+        walls.poly_data(of_grains=False), walls.poly_data(of_grains=True), walls.planes,
+        some_contacts(read_frame(contacts), setting.clip) if contacts else None)
 
 
 class Progress:

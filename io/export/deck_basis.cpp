@@ -18,7 +18,6 @@ namespace
 constexpr double least_modulus = 5e6;         ///< which LIGGGHTS asks for [Pa]
 constexpr double modulus_by_pressure = 500.0; ///< at which a bed's mean overlap is about one percent of a diameter
 constexpr double grain_weight = 1e6; ///< of grains of walls, so that a sphere feels something that does not give way
-constexpr double outlet_interval = 0.02; ///< between looks at outlets [s]
 
 AtomTypes atom_types(const Simulation& simulation)
 {
@@ -320,19 +319,19 @@ std::string deck_outputs(const DeckBasis& basis, ExportNotes& notes)
     return text;
 }
 
-std::string deck_runs(const DeckBasis& basis, const Timeline& timeline)
+std::vector<std::string> outlet_regions(const DeckBasis& basis)
 {
-    std::string every;
+    std::vector<std::string> regions;
     for (std::size_t k = 0; k < basis.scene.outlet.size(); ++k)
         if (region_words(basis.simulation.model.outlets[k]))
-            every += fmt::format(
-                " \"delete_atoms region {} compress no\"", deck_id("outlet", k, basis.scene.outlet[k].name));
+            regions.push_back(deck_id("outlet", k, basis.scene.outlet[k].name));
+    return regions;
+}
+
+std::string deck_runs(const DeckBasis& basis, const Timeline& timeline, const std::string& every)
+{
     const double duration = basis.simulation.duration;
     std::string text;
-    if (!every.empty()) {
-        text += fmt::format("\nvariable look equal ceil({}/${{step}})\n", outlet_interval);
-        every = " every ${look}" + every;
-    }
     for (auto moment = timeline.begin(); moment != timeline.end(); ++moment) {
         const double end = std::next(moment) == timeline.end() ? duration : std::next(moment)->first;
         if (moment->first > 0.0) text += fmt::format("\n# t = {:.6g} s\n", moment->first);

@@ -44,6 +44,9 @@ DeckBasis deck_basis(const scene::Scene& scene, const Simulation& simulation);
 
 inline constexpr const char* spheres_file = "spheres.data";
 
+/// Between looks at outlets [s].
+inline constexpr double outlet_interval = 0.02;
+
 /// Poisson's ratio of all materials.
 inline constexpr double poisson = 0.25;
 
@@ -90,9 +93,12 @@ std::string deck_outputs(const DeckBasis& basis, ExportNotes& notes);
 /// Commands that are due at a time of the run [s].
 using Timeline = std::map<double, std::string>;
 
-/// The timeline as text, up to the end of the run, with the runs in between, in which the spheres in outlets are taken
-/// away.
-std::string deck_runs(const DeckBasis& basis, const Timeline& timeline);
+/// The timeline as text, up to the end of the run, with the runs in between.
+/// @param every what is added to each run
+std::string deck_runs(const DeckBasis& basis, const Timeline& timeline, const std::string& every = "");
+
+/// The names of the regions of the outlets.
+std::vector<std::string> outlet_regions(const DeckBasis& basis);
 
 /// What neither program can say of the scene.
 ExportNotes common_notes(const DeckBasis& basis);

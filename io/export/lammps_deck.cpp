@@ -300,6 +300,10 @@ Deck lammps_deck(const DeckBasis& basis)
     add_walls(basis, deck, timeline);
     for (std::size_t k = 0; k < basis.simulation.pours.size(); ++k) add_pour(basis, k, deck, timeline);
     deck.text += "\n" + deck_outputs(basis, deck.notes);
+    for (const std::string& region : outlet_regions(basis))
+        deck.text +=
+            fmt::format("variable look equal ceil({}/${{step}})\nfix {} all evaporate ${{look}} 100000000 {} 4711\n",
+                outlet_interval, region, region);
     timeline.erase(timeline.lower_bound(basis.simulation.duration), timeline.end());
     deck.text += "\n" + deck_runs(basis, timeline);
     return deck;

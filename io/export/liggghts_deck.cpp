@@ -277,9 +277,9 @@ void add_pour(const DeckBasis& basis, std::size_t index, Seeds& seeds, Deck& dec
     for (std::size_t k = 0; k < sizes.size(); ++k) {
         const SizeClass& size = sizes[k];
         text += fmt::format(
-            "fix {}_size{} all particletemplate/sphere {} atom_type {} density constant {} radius constant {:.10g}\n",
-            id, k, seeds.next(), size.material + 1, materials.list[static_cast<std::size_t>(size.material)].density,
-            0.5 * size.diameter);
+            "fix {}_size{} {} particletemplate/sphere {} atom_type {} density constant {} radius constant {:.10g}\n",
+            id, k, type_group(basis, size.material + 1), seeds.next(), size.material + 1,
+            materials.list[static_cast<std::size_t>(size.material)].density, 0.5 * size.diameter);
         shares += fmt::format(" {}_size{} {:.10g}", id, k, size.share);
     }
     text += fmt::format(
@@ -325,7 +325,14 @@ Deck liggghts_deck(const DeckBasis& basis)
     Timeline timeline;
     for (const auto& [time, moment] : moments)
         if (time < basis.simulation.duration) timeline.emplace(time, moment.text());
-    deck.text += "\n" + deck_runs(basis, timeline);
+    std::string every;
+    for (const std::string& region : outlet_regions(basis))
+        every += fmt::format(" \"delete_atoms region {} compress no\"", region);
+    if (!every.empty()) {
+        deck.text += fmt::format("variable look equal ceil({}/${{step}})\n", outlet_interval);
+        every = " every ${look}" + every;
+    }
+    deck.text += "\n" + deck_runs(basis, timeline, every);
     return deck;
 }
 

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks that LAMMPS and LIGGGHTS run the decks of `talus export`.
 
-    tests/support/check_decks.py TALUS             every supplied scene for a moment: it starts, and loses no sphere
+    tests/support/check_decks.py TALUS             every supplied scene for a moment: it starts, and loses no
+                                                   sphere; a pour for a little longer
     tests/support/check_decks.py TALUS --flow      a silo until it has flowed for half a second: the same mass flow
 
 A program that is not installed is left out, with a word; Debian has both (apt install --no-install-recommends lammps
@@ -25,6 +26,8 @@ SCENES = Path(__file__).resolve().parents[2] / "scenarios"
 PROGRAMS = {"lammps": "lmp", "liggghts": "liggghts"}
 ON_ONE_THREAD = {**os.environ, "OMP_NUM_THREADS": "1"}
 MOMENT = 0.004  # s
+# The source of the pile: 1100 spheres a second. LAMMPS lets them in in bursts, a twentieth of a second apart.
+POUR_END, POURED, POURED_WITHIN = 0.1, 110.0, 0.25
 # The silo of the supplied scene with fewer beads, so that it takes a minute in each program.
 SILO = ["--set", "fill.0.count=3000", "--set", "wall.gate.remove_at=0.5", "--set", "sensor.outlet.from=0.6",
         "--set", "sensor.outlet.to=1.1", "--until", "1.1"]
@@ -69,6 +72,16 @@ def check_scenes(talus, programs, folder):
                 yield f"{scene.stem} for {program}: {lost} spheres are lost"
 
 
+def check_pour(talus, programs, folder):
+    for program in programs:
+        deck = folder / f"pour-{program}"
+        problem = export(talus, "pile", program, deck, "--until", str(POUR_END)) or run_deck(program, deck)
+        if problem:
+            yield f"pile for {program}: {problem}"
+        elif not abs((there := spheres_in(deck / "frames.lammpstrj", -1)) - POURED) < POURED_WITHIN * POURED:
+            yield f"pile for {program}: {there} spheres have come in by {POUR_END} s, not about {POURED:.0f}"
+
+
 def flow_of_deck(path):
     """kg/s, by the mass that is still before the sensor's plane."""
     time, before = numpy.loadtxt(path, skiprows=1).T
@@ -111,9 +124,9 @@ def main():
         print(f"left out: {program} is not installed")
     if not programs:
         print("skipped: neither lammps nor liggghts is installed")
-    check = check_flow if sys.argv[2:] else check_scenes
+    checks = [check_flow] if sys.argv[2:] else [check_scenes, check_pour]
     with tempfile.TemporaryDirectory() as folder:
-        found = list(check(sys.argv[1], programs, Path(folder))) if programs else []
+        found = [problem for check in checks if programs for problem in check(sys.argv[1], programs, Path(folder))]
     for problem in found:
         print(f"check_decks.py: {problem}", file=sys.stderr)
     sys.exit(1 if found else 0)

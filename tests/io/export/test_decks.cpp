@@ -188,6 +188,8 @@ TEST_CASE("pours of both decks let all spheres in", "[export]")
     const Built built(poured);
     const Deck liggghts = built.liggghts();
     CHECK_THAT(liggghts.text, Contains("nparticles 800 particlerate 2000") && Contains("vel constant 0 0 -1"));
+    // in the group that is moved, which is one of the spheres that were there before
+    CHECK_THAT(liggghts.text, Contains("fix pour0_rain_size0 grains1_glass particletemplate/sphere"));
     const std::string lammps = built.lammps().text;
     double count = 0.0;
     std::istringstream lines(lammps);
@@ -195,6 +197,14 @@ TEST_CASE("pours of both decks let all spheres in", "[export]")
         if (const auto at = line.find(" pour "); at != std::string::npos && line.starts_with("fix "))
             count += std::stod(line.substr(at + 6));
     CHECK(count == 800.0);
+}
+
+TEST_CASE("spheres in an outlet are taken out", "[export]")
+{
+    const Built built(poured);
+    CHECK_THAT(built.lammps().text, Contains("region outlet0_below block -0.2 0.2 -0.2 0.2 -0.2 -0.1 units box") &&
+                                        Contains("fix outlet0_below all evaporate ${look}"));
+    CHECK_THAT(built.liggghts().text, Contains("every ${look} \"delete_atoms region outlet0_below compress no\""));
 }
 
 TEST_CASE("walls move in LAMMPS by formulas of time, in LIGGGHTS from one moment to another", "[export]")
