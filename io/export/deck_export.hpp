@@ -5,7 +5,7 @@
 #include "scenarios/scene.hpp"
 #include "scenarios/simulation.hpp"
 
-/// A scene as the input of LAMMPS (29 Sep 2021 and later) or LIGGGHTS (3.8): spheres as they lie, materials, walls,
+/// A scene as the input of LAMMPS (tried: 29 Sep 2021) or LIGGGHTS (3.8): spheres as they lie, materials, walls,
 /// pours, outlets, sensors of mass flow, frames. Their contacts are springs: Hertz and Mindlin, with damping from the
 /// restitution, and a Young's modulus that is the deck's own.
 namespace talus
