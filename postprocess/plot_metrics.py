@@ -7,7 +7,6 @@
 Exit codes: 0 done, 2 wrong arguments or no such run, 4 the figure cannot be written.
 """
 import argparse
-import re
 import sys
 from pathlib import Path
 
@@ -18,42 +17,11 @@ except ImportError as error:
     print(f"plot_metrics.py: {error}: apt install python3-matplotlib, and use /usr/bin/python3.", file=sys.stderr)
     sys.exit(2)
 
+from metric_panels import RUN_PANELS, sensor_panels
 from read_run import Run, RunError
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  after the choice of a backend without a screen
-
-# Title, label of the axis, scale, and which columns are drawn under which name.
-RUN_PANELS = [
-    ("Grains", "number", "linear", {"inserted": "inserted", "spheres": "inside", "left": "left"}),
-    ("Contacts", "number", "linear", {"contacts": "contacts"}),
-    ("Residual", "relative", "log", {"residual": "residual"}),
-    ("Sweeps of a step", "number", "linear", {"sweeps": "sweeps"}),
-    ("Overlap", "share of a diameter", "log", {"worst_overlap_d": "worst", "mean_overlap_d": "mean"}),
-    ("Energy of motion and of contacts", "J", "log", {"kinetic_energy_J": "kinetic", "contact_energy_J": "contacts"}),
-    ("Potential energy", "J", "linear", {"potential_energy_J": "potential"}),
-]
-# Unit by the end of a column's name, longer ends first; other columns are plain numbers.
-UNITS = {"_m2_per_s2": "m²/s²", "_kg_per_s": "kg/s", "_m_per_s": "m/s", "_N_m": "N m", "_rad_per_s": "rad/s",
-         "_deg": "degrees", "_kg": "kg",
-         "_Pa": "Pa", "_m": "m", "_N": "N"}
-COMPONENT = re.compile(r"_([xyz]{1,2})$")
-
-
-def sensor_panels(run, columns):
-    """One panel for each quantity of the sensors of the scene, whose columns are <sensor>_<quantity>_<unit>; the
-    components of a vector or tensor, _x or _yz, go into one."""
-    names = tuple(f"{sensor['name']}_" for sensor in run.scene().get("sensor", []))
-    panels = {}
-    for column in columns:
-        if column.startswith(names):
-            ending = next((ending for ending in UNITS if column.endswith(ending)), "")
-            quantity = column.removesuffix(ending)
-            component = COMPONENT.search(quantity)
-            title = COMPONENT.sub("", quantity).replace("_", " ")
-            curves = panels.setdefault((title, UNITS.get(ending, "number")), {})
-            curves[column] = component[1] if component else title
-    return [(title, unit, "linear", curves) for (title, unit), curves in panels.items()]
 
 
 def sensor_results(run):
@@ -83,7 +51,7 @@ def draw_panel(axes, time, metrics, panel):
 def draw(run):
     """A figure with two columns of panels over a common time."""
     metrics = run.metrics()
-    panels = [*sensor_panels(run, metrics), *(panel for panel in RUN_PANELS if panel[3].keys() & metrics.keys())]
+    panels = [*sensor_panels(run, metrics), *(panel for panel in RUN_PANELS if panel.columns.keys() & metrics.keys())]
     rows = (len(panels) + 1) // 2
     figure, grid = pyplot.subplots(rows, 2, figsize=(11, 2.2 * rows + 0.5), sharex=True, squeeze=False, layout="constrained")
     for axes, panel in zip(grid.flat, panels):

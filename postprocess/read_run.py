@@ -4,6 +4,7 @@
 Frames are read with VTK (Debian: python3-vtk9), which is loaded only then.
 """
 import csv
+import fcntl
 import json
 import tomllib
 import xml.etree.ElementTree as xml
@@ -32,6 +33,17 @@ class Run:
         self.folder = Path(folder)
         if not (self.folder / "scene.resolved.toml").is_file():
             raise RunError(f"{self.folder} holds no run of Talus: it has no scene.resolved.toml.")
+
+    def is_going_on(self):
+        """Whether a process of Talus writes into the folder: it holds talus.lock locked until it ends."""
+        try:
+            with (self.folder / "talus.lock").open("rb") as file:
+                fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+            return False
+        except FileNotFoundError:
+            return False
+        except OSError:
+            return True
 
     def scene(self):
         """The scene with all its keys, as nested dictionaries."""

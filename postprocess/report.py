@@ -1,0 +1,68 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes a page that plays a run: one file, to be opened in a browser, without a network.
+
+    postprocess/report.py out/hopper                      into out/hopper/report.html
+    postprocess/report.py out/hopper --output page.html --frames 120
+
+It works on a run that is still going on, or was killed, as far as it came.
+Exit codes: 0 done, 2 wrong arguments or something missing, 4 the page cannot be written.
+"""
+import argparse
+import os
+import sys
+from pathlib import Path
+
+try:
+    import numpy  # noqa: F401  whether it is there
+    import vtkmodules.vtkIOXML  # noqa: F401
+except ImportError as error:
+    print(f"report.py: {error}: apt install python3-vtk9 python3-numpy, and use /usr/bin/python3.", file=sys.stderr)
+    sys.exit(2)
+
+from read_run import Run, RunError
+from run_page.page import RunPage, report_page
+
+
+def positive(argument):
+    if not argument.isdecimal() or not 1 <= int(argument) <= 10000:
+        raise argparse.ArgumentTypeError(f"'{argument}' is not a whole number from 1 to 10000")
+    return int(argument)
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(prog="report.py", description="Makes a page that plays a run.")
+    parser.add_argument("run", metavar="OUT", help="the folder of a run")
+    parser.add_argument("--output", type=Path, metavar="HTML", help="where to write the page (OUT/report.html)")
+    parser.add_argument("--frames", type=positive, metavar="N", help="how many frames to play (60; fewer of over 33 000 spheres)")
+    return parser.parse_args()
+
+
+def write_whole(path, page):
+    """Writes a file that is there whole or not at all."""
+    beside = path.with_name(path.name + ".part")
+    try:
+        beside.write_text(page, encoding="utf-8")
+        os.replace(beside, path)
+    except OSError:
+        beside.unlink(missing_ok=True)
+        raise
+
+
+def main():
+    arguments = parse_arguments()
+    try:
+        run = Run(arguments.run)
+        path = arguments.output or run.folder / "report.html"
+        write_whole(path, report_page(RunPage(run, arguments.frames)))
+        print(path)
+    except RunError as error:
+        print(f"report.py: {error}", file=sys.stderr)
+        sys.exit(2)
+    except OSError as error:
+        print(f"report.py: {error.filename}: {error.strerror}.", file=sys.stderr)
+        sys.exit(4)
+
+
+if __name__ == "__main__":
+    main()

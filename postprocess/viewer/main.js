@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+import "./page.css";
+import "uplot/dist/uPlot.min.css";
+import { CompareView } from "./compare_view.js";
+import { follow } from "./live.js";
+import { pictureOf } from "./save.js";
+import { RunView } from "./run_view.js";
+import { embeddedBlob } from "./unpack.js";
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const { mode } = document.body.dataset;
+const view = mode === "compare" ? new CompareView(data, embeddedBlob) : new RunView(data, embeddedBlob);
+window.talus = view; // for a look from the browser's console, and for the tests
+
+document.querySelectorAll("pre.copy").forEach((pre) => pre.addEventListener("click", () => getSelection().selectAllChildren(pre)));
+
+// Paper shows the picture as it is now.
+addEventListener("beforeprint", () => {
+  for (const player of [view.player, ...(view.players ?? [])].filter(Boolean)) {
+    const still = player.place.querySelector("img.still") ?? player.frame.appendChild(Object.assign(new Image(), { className: "still" }));
+    still.src = pictureOf(player).toDataURL("image/png");
+  }
+});
+
+view.start().then(() => mode === "watch" && follow(view));
