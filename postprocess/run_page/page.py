@@ -160,14 +160,16 @@ def report_body(data, picture):
 <div data-section="results">{sections['results']}</div>
 </header>
 <main>
+<div class="play">
 <section id="stage" class="stage" aria-label="The run, playing">{image}</section>
 <section id="charts" class="charts" aria-label="Charts over time"></section>
+</div>
 <div class="parts">
 {part('modelled', 'What was modelled')}
 {part('error', 'How wrong it may be')}
-<section class="part" id="part-packing" hidden><h2>Packing and forces</h2></section>
 {part('ledger', 'Where the spheres went')}
 {part('timing', 'Where the time went')}
+<section class="part" id="part-packing" hidden><h2>Packing and forces</h2></section>
 {part('repeat', 'To repeat and to cite it')}
 </div>
 </main>
