@@ -79,6 +79,12 @@ void add_run_options(CLI::App& verb, CommandLine& line)
         ->excludes(quiet);
 }
 
+void add_page_flags(CLI::App& verb, CommandLine& line)
+{
+    verb.add_flag("--report", line.report, "When it is over, make report.html: a page that plays the run");
+    verb.add_flag("--watch", line.watch, "Show the run in a browser while it goes on");
+}
+
 void add_force_flag(CLI::App& verb, CommandLine& line)
 {
     verb.add_flag("--force", line.force, "Replace a file that is there already");
@@ -92,6 +98,7 @@ void add_run(CLI::App& app, CommandLine& line)
     verb->add_flag("--force", line.force, "Replace the output folder if it holds an earlier run of Talus");
     verb->add_flag("--relax", line.relax, "Move overlapping spheres apart before the run begins");
     add_run_options(*verb, line);
+    add_page_flags(*verb, line);
     verb->footer("Example: talus run hopper --set contact.glass-glass.friction=0.6 --until 2 -o out/rough\n"
                  "Ctrl-C stops a run after a checkpoint, from which 'talus resume' goes on; twice, at once. "
                  "SIGUSR1 makes it write a checkpoint.");
@@ -104,6 +111,7 @@ void add_resume(CLI::App& app, CommandLine& line)
     verb->add_option("DIR", line.out, "The run's output folder")->required()->type_name("");
     add_change_options(*verb, line);
     add_run_options(*verb, line);
+    add_page_flags(*verb, line);
     verb->footer("Example: talus resume out/hopper --until 5");
     verb->callback([&] { line.verb = CommandLine::Verb::resume; });
 }
@@ -279,6 +287,31 @@ void add_export(CLI::App& app, CommandLine& line)
     });
 }
 
+void add_report(CLI::App& app, CommandLine& line)
+{
+    CLI::App* verb = app.add_subcommand("report", "Make a page that plays a run, for any browser, without a network");
+    verb->add_option("DIR", line.out, "The run's output folder; it may be going on, or have been killed")
+        ->required()
+        ->type_name("");
+    verb->add_option("-o,--output", line.page, "The page [DIR/report.html]")->type_name("FILE")->take_last();
+    verb->add_option("--frames", line.frames, "How many frames to play [60, fewer of many spheres]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 10000));
+    add_force_flag(*verb, line);
+    verb->footer("Example: talus report out/hopper");
+    verb->callback([&] { line.verb = CommandLine::Verb::report; });
+}
+
+void add_watch(CLI::App& app, CommandLine& line)
+{
+    CLI::App* verb = app.add_subcommand("watch", "Show a run in a browser of this machine, while it goes on");
+    verb->add_option("DIR", line.out, "The run's output folder")->required()->type_name("");
+    verb->footer(
+        "Example: talus watch out/hopper\n"
+        "Prints an address that only this machine answers, and opens it where there is a screen. Ctrl-C ends it.");
+    verb->callback([&] { line.verb = CommandLine::Verb::watch; });
+}
+
 } // namespace
 
 std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
@@ -297,6 +330,8 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
     add_solve(app, line);
     add_study(app, line);
     add_export(app, line);
+    add_report(app, line);
+    add_watch(app, line);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
@@ -309,7 +344,8 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
     }
     if (app.get_subcommands().empty())
         throw UsageError(
-            "say what to do: run, resume, check, keys, list, dump, solve, study or export; see 'talus --help'");
+            "say what to do: run, resume, report, watch, check, keys, list, export, dump, solve or study; see 'talus "
+            "--help'");
     return line;
 }
 

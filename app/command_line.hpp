@@ -31,19 +31,23 @@ enum class ExportFormat { lammps_dump, csv, vtp, lammps, liggghts };
 
 /// What the user asked for, first of all of which scene.
 struct CommandLine : SceneRequest {
-    enum class Verb { run, resume, check, keys, list, dump, solve, study, export_files };
+    enum class Verb { run, resume, check, keys, list, dump, solve, study, export_files, report, watch };
     Verb verb = Verb::list;
     std::string table; ///< of keys: the one to show; empty: all
     double at = 0.0;   ///< of dump [s]
     SolveRequest solve;
     ExportFormat format = ExportFormat::vtp; ///< of export, whose scene is a run's folder where frames are meant
     std::filesystem::path study;             ///< file of what to try; empty: the usual
-    std::filesystem::path out; ///< of run: empty for out/<scene name>; of resume: the run's folder; of export: empty
-                               ///< for one by its format; else a file
-    std::filesystem::path log; ///< empty: no log file
+    std::filesystem::path out;  ///< of run: empty for out/<scene name>; of resume, report and watch: the run's folder;
+                                ///< of export: empty for one by its format; else a file
+    std::filesystem::path log;  ///< empty: no log file
+    std::filesystem::path page; ///< of report; empty: report.html in the run's folder
+    int frames = 0;             ///< of report: how many to play; 0: as many as are usual
     bool force = false;
     bool relax = false;
     bool resolved = false; ///< check prints the resolved scene
+    bool report = false;   ///< a run ends with the page that plays it
+    bool watch = false;    ///< a run is shown in a browser while it goes on
     int threads = 0;       ///< 0: as many as OpenMP takes, all cores unless its environment says otherwise
     Verbosity verbosity = Verbosity::normal;
 };

@@ -7,6 +7,7 @@
 #include "app/verbs/check_scene.hpp"
 #include "app/verbs/dump_step.hpp"
 #include "app/verbs/export_files.hpp"
+#include "app/verbs/run_page.hpp"
 #include "app/verbs/run_scene.hpp"
 #include "app/verbs/solve_problem.hpp"
 #include "io/scene/key_table.hpp"
@@ -70,6 +71,10 @@ ExitCode execute(const CommandLine& line)
         return study_scene(line);
     case CommandLine::Verb::export_files:
         return export_files(line);
+    case CommandLine::Verb::report:
+        return report_run(line);
+    case CommandLine::Verb::watch:
+        return watch_run(line);
     }
     return ExitCode::done;
 }

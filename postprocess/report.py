@@ -34,8 +34,15 @@ def parse_arguments():
     parser = argparse.ArgumentParser(prog="report.py", description="Makes a page that plays a run.")
     parser.add_argument("run", metavar="OUT", help="the folder of a run")
     parser.add_argument("--output", type=Path, metavar="HTML", help="where to write the page (OUT/report.html)")
+    parser.add_argument("--force", action="store_true", help="replace a file that is no page of Talus")
     parser.add_argument("--frames", type=positive, metavar="N", help="how many frames to play (60; fewer of over 33 000 spheres)")
     return parser.parse_args()
+
+
+def refuse_foreign(path):
+    """Raises RunError where the file is there and holds something that is no page of Talus."""
+    if path.is_file() and b'<meta name="generator" content="Talus">' not in path.read_bytes()[:2000]:
+        raise RunError(f"{path} is there already and is no page of Talus; --force replaces it.")
 
 
 def write_whole(path, page):
@@ -54,6 +61,8 @@ def main():
     try:
         run = Run(arguments.run)
         path = arguments.output or run.folder / "report.html"
+        if not arguments.force:
+            refuse_foreign(path)
         write_whole(path, report_page(RunPage(run, arguments.frames)))
         print(path)
     except RunError as error:

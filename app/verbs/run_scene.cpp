@@ -4,8 +4,10 @@
 #include "app/loop/run_loop.hpp"
 #include "app/loop/run_origin.hpp"
 #include "app/loop/run_report.hpp"
+#include "app/system/script.hpp"
 #include "app/system/signals.hpp"
 #include "app/verbs/check_scene.hpp"
+#include "app/verbs/run_page.hpp"
 #include "core/step/relaxation.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/summary.hpp"
@@ -15,6 +17,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 
 namespace talus
 {
@@ -86,17 +89,32 @@ void advise_to_look(const fs::path& folder)
     say("to see it: {} {}\n", from_here.size() < script.string().size() ? from_here : script.string(), folder.string());
 }
 
-/// Runs what is ready to run, writes summary.json and tells how it went.
-ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const std::filesystem::path& folder, Verbosity verbosity)
+/// Shows the run in a browser until it is over, where that is asked for and can be done.
+std::unique_ptr<ScriptBeside> watch_beside(const CommandLine& line, const fs::path& folder)
 {
+    if (!line.watch) return nullptr;
+    try {
+        return std::make_unique<ScriptBeside>(
+            "watch.py", std::vector<std::string>{"--until-it-is-over", "--", folder.string()});
+    } catch (const UsageError& error) {
+        warn("the run goes on, but cannot be watched: {}\n", error.what());
+        return nullptr;
+    }
+}
+
+/// Runs what is ready to run, writes summary.json and tells how it went; a run that no signal stopped gets its page.
+ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const CommandLine& line, const fs::path& folder)
+{
+    const auto watcher = watch_beside(line, folder);
     const RunEnd end = loop.run();
     const RunSummary summary = summarise(opened, loop, end);
     write_summary(folder / "summary.json", summary);
-    if (verbosity != Verbosity::quiet) print_results(summary);
+    if (line.verbosity != Verbosity::quiet) print_results(summary);
+    if (line.report && end.signal == 0) make_page(folder, line.verbosity);
     print_incidents(summary, folder, opened.report.world);
     if (!end.incidents.empty()) return ExitCode::physics;
     if (end.signal == 0) {
-        if (verbosity != Verbosity::quiet) advise_to_look(folder);
+        if (line.verbosity != Verbosity::quiet) advise_to_look(folder);
         return ExitCode::done;
     }
     warn("stopped by SIG{} at t = {:.6g} s after a checkpoint; to go on: talus resume {}\n", sigabbrev_np(end.signal),
@@ -151,7 +169,7 @@ ExitCode run_scene(const CommandLine& line)
     }
 
     RunLoop loop(opened, folder, line.verbosity);
-    return run_to_end(opened, loop, folder, line.verbosity);
+    return run_to_end(opened, loop, line, folder);
 }
 
 ExitCode resume_run(const CommandLine& line)
@@ -174,7 +192,7 @@ ExitCode resume_run(const CommandLine& line)
         write_atomically(scene, resolved_scene(with_copies(opened.scene, named_files(opened.scene))));
         fs::remove(line.out / "summary.json"); // of a run that had ended; this one has not
         print_resumption(opened, checkpoint, line);
-        return run_to_end(opened, loop, line.out, line.verbosity);
+        return run_to_end(opened, loop, line, line.out);
     } catch (const ArchiveError& error) {
         throw InputError(fmt::format(
             "{}: cannot be put back, as by another build of Talus: {}", checkpoint.path.string(), error.what()));

@@ -40,7 +40,8 @@ constexpr const char* profile_prefix = "profile_";
 bool is_output_of_a_run(const std::string& name)
 {
     if (name.starts_with(profile_prefix) && (name.ends_with(".csv") || name.ends_with(".csv.tmp"))) return true;
-    constexpr std::array<std::string_view, 4> files = {"metrics.csv", "summary.json", "lost.vtp", marker};
+    constexpr std::array<std::string_view, 5> files = {
+        "metrics.csv", "summary.json", "lost.vtp", "report.html", marker};
     constexpr std::array<std::string_view, 5> series = {"particles", "contacts", "walls", "moving_walls", "checkpoint"};
     for (const std::string_view file : files)
         if (name == file || name == fmt::format("{}.tmp", file)) return true;

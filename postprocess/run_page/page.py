@@ -19,9 +19,9 @@ VIEWER = Path(__file__).resolve().parent.parent / "viewer"
 class RunPage:
     """The page of a run; `update` looks again at a run that goes on."""
 
-    def __init__(self, run, most_frames=None):
+    def __init__(self, run, most_frames=None, live=False):
         self.run, self.most_frames = run, most_frames
-        self.playback = Playback()
+        self.playback = Playback(live)
 
     def update(self):
         """What the viewer needs as plain data, and the blobs that this names by their keys."""

@@ -22,17 +22,21 @@ def points_of(frame):
     return vtk_to_numpy(frame.GetPoints().GetData()) if frame.GetNumberOfPoints() else numpy.empty((0, 3))
 
 
-def chosen(count, grains, most=None):
-    """Which of `count` frames are played: evenly, with the first and the last."""
+def chosen(count, grains, most=None, live=False):
+    """Which of `count` frames are played: evenly, with the first and the last. Of a run that goes on every second of
+    them stays when they become too many, so that little is to be packed anew."""
     most = most or int(numpy.clip(GRAIN_FRAMES / max(1, grains), LEAST_FRAMES, MOST_FRAMES))
     stride = max(1, -(-(count - 1) // most))
+    if live:
+        stride = 1 << (stride - 1).bit_length()
     return sorted({*range(0, count, stride), count - 1}) if count else []
 
 
 class Playback:
     """The frames of a run that are played. Made again for a run that goes on, it packs only what is new."""
 
-    def __init__(self):
+    def __init__(self, live=False):
+        self.live = live
         self.read = {}  # what is kept of each frame read, by its file
         self.groups = {}  # packed, by the files of their frames
         self.fixed = None  # origin [m] and quantum [m]
@@ -41,7 +45,7 @@ class Playback:
         """What the viewer needs to play it, and the blobs that this names by their keys."""
         frames = run.frames()
         last = self.read_of(frames[-1])[0] if frames else None
-        numbers = chosen(len(frames), len(last.ids) if last else 0, most)
+        numbers = chosen(len(frames), len(last.ids) if last else 0, most, self.live)
         frames = [frames[number] for number in numbers]
         grains = [self.read_of(frame)[0] for frame in frames]
         blobs, groups = {}, []

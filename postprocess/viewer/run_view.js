@@ -95,6 +95,7 @@ export class RunView {
     followKeys(clock, [this.player], help);
     link.read();
     this.player.tick(performance.now());
+    performance.mark("first picture");
     document.documentElement.dataset.ready = "first";
   }
 

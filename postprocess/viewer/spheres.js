@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 import * as THREE from "three";
 import { rgb, UNKNOWN } from "./colours.js";
+import { fetchRecord, Records, repeated } from "./records.js";
 
 /** How a grain comes from one frame to the next. */
 const HERE = 1; // it is in the first only
@@ -11,9 +12,8 @@ const JUMPS = 4; // across a periodic border
 const vertexShader = /* glsl */ `
 precision highp float;
 precision highp int;
-in vec3 position;
-in vec4 here, there; // centre, value
-in vec2 body; // radius, how it comes from here to there
+uniform highp sampler2D heres, theres; // centre, value
+uniform highp sampler2D bodies; // radius, how it comes from here to there
 uniform mat4 modelViewMatrix, projectionMatrix;
 uniform float mixing, shrink;
 uniform int picked;
@@ -21,7 +21,12 @@ out vec3 way;
 flat out vec3 centre;
 flat out float radius, value;
 flat out int marked;
+${fetchRecord}
 void main() {
+  int grain = gl_VertexID / 4;
+  int corner = gl_VertexID % 4;
+  vec4 here = record(heres, grain), there = record(theres, grain), body = record(bodies, grain);
+  vec2 position = vec2(corner == 1 || corner == 2 ? 1.0 : -1.0, corner > 1 ? 1.0 : -1.0);
   float f = mixing;
   int kind = int(body.y + 0.5);
   bool hidden = kind == 0 || (kind == ${HERE} && f >= 0.5) || (kind == ${THERE} && f < 0.5);
@@ -29,7 +34,7 @@ void main() {
   centre = (modelViewMatrix * vec4(mix(here.xyz, there.xyz, f), 1.0)).xyz;
   value = (here.w < 0.0 || there.w < 0.0) ? (f < 0.5 ? here.w : there.w) : mix(here.w, there.w, f);
   radius = body.x * shrink;
-  marked = gl_InstanceID == picked ? 1 : 0;
+  marked = grain == picked ? 1 : 0;
   if (marked == 1) radius = body.x;
   // A square across the line of sight that just covers what is seen of the sphere.
   float distance = length(centre);
@@ -101,9 +106,12 @@ export class Spheres {
         unknown: { value: new THREE.Vector3(...rgb(UNKNOWN).map((c) => c / 255)) },
         accent: { value: new THREE.Vector3(0, 0.7, 1) },
         clip: { value: new THREE.Vector4() },
+        heres: { value: null },
+        theres: { value: null },
+        bodies: { value: null },
       },
     });
-    this.mesh = new THREE.Mesh(new THREE.InstancedBufferGeometry(), this.material);
+    this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), this.material);
     this.mesh.frustumCulled = false;
     this.count = 0;
     this.capacity = -1;
@@ -117,18 +125,15 @@ export class Spheres {
 
   makeRoom(count) {
     if (count <= this.capacity) return;
-    this.mesh.geometry.dispose();
-    const geometry = new THREE.InstancedBufferGeometry();
-    geometry.setAttribute("position", new THREE.Float32BufferAttribute([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], 3));
-    geometry.setIndex([0, 1, 2, 0, 2, 3]);
     this.capacity = Math.ceil(1.2 * count) + 16;
-    for (const [name, size] of [["here", 4], ["there", 4], ["body", 2]]) {
-      const attribute = new THREE.InstancedBufferAttribute(new Float32Array(size * this.capacity), size);
-      attribute.setUsage(THREE.DynamicDrawUsage);
-      geometry.setAttribute(name, attribute);
+    this.mesh.geometry.dispose();
+    this.mesh.geometry = repeated([0, 1, 2, 0, 2, 3], 4, this.capacity);
+    for (const name of ["heres", "theres", "bodies"]) {
+      this[name]?.dispose();
+      this[name] = new Records(this.capacity);
+      this.material.uniforms[name].value = this[name].texture;
     }
     this.slots = new Int32Array(this.capacity);
-    this.mesh.geometry = geometry;
   }
 
   /**
@@ -146,7 +151,7 @@ export class Spheres {
     let count = first.slots.length;
     if (!same) for (const slot of second.slots) if (first.local[slot] < 0) ++count;
     this.makeRoom(count);
-    const { here, there, body } = this.mesh.geometry.attributes;
+    const [here, there, body] = [this.heres.array, this.theres.array, this.bodies.array];
     const before = k > 0 ? recording.frame(k - 1) : null;
     const [low, high] = colouring.range;
     const share = (value) => (value === value ? Math.max(0, (value - low) / (high - low || 1)) : -1);
@@ -163,24 +168,21 @@ export class Spheres {
         const p = inFirst ? first.places[3 * i + axis] : second.places[3 * j + axis];
         // A grain that leaves goes on as it went, until it is gone.
         const q = inSecond ? second.places[3 * j + axis] : p + (wasBefore ? recording.wrapped(p - before.places[3 * b + axis], axis) : 0);
-        here.array[4 * n + axis] = p * scale + shift[axis];
-        there.array[4 * n + axis] = q * scale + shift[axis];
+        here[4 * n + axis] = p * scale + shift[axis];
+        there[4 * n + axis] = q * scale + shift[axis];
         if (kind === MOVES && recording.wrapped(q - p, axis) !== q - p) kind = JUMPS;
       }
-      here.array[4 * n + 3] = inFirst ? share(values[0][i]) : share(values[1][j]);
-      there.array[4 * n + 3] = inSecond ? share(values[1][j]) : here.array[4 * n + 3];
-      body.array[2 * n] = recording.radii[slot] * toStage.length;
-      body.array[2 * n + 1] = kind;
+      here[4 * n + 3] = inFirst ? share(values[0][i]) : share(values[1][j]);
+      there[4 * n + 3] = inSecond ? share(values[1][j]) : here[4 * n + 3];
+      body[4 * n] = recording.radii[slot] * toStage.length;
+      body[4 * n + 1] = kind;
       this.slots[n++] = slot;
     };
     for (let i = 0; i < first.slots.length; ++i) add(first.slots[i], i, same ? i : second.local[first.slots[i]]);
     if (!same) for (let j = 0; j < second.slots.length; ++j) if (first.local[second.slots[j]] < 0) add(second.slots[j], -1, j);
-    this.count = this.mesh.geometry.instanceCount = n;
-    for (const attribute of [here, there, body]) {
-      attribute.clearUpdateRanges();
-      attribute.addUpdateRange(0, n * attribute.itemSize);
-      attribute.needsUpdate = true;
-    }
+    this.count = n;
+    this.mesh.geometry.setDrawRange(0, 6 * n);
+    for (const records of [this.heres, this.theres, this.bodies]) records.changed();
     return true;
   }
 
@@ -202,19 +204,19 @@ export class Spheres {
   /** The slot of the first grain that a ray meets, on the side of the plane that is left; −1: none. */
   pick(ray, plane) {
     if (!this.count) return -1;
-    const { here, there, body } = this.mesh.geometry.attributes;
+    const [here, there, body] = [this.heres.array, this.theres.array, this.bodies.array];
     const { origin: o, direction: u } = ray;
     let nearest = Infinity;
     let found = -1;
     for (let n = 0; n < this.count; ++n) {
-      const kind = body.array[2 * n + 1];
+      const kind = body[4 * n + 1];
       let f = this.mixing;
       if ((kind === HERE && f >= 0.5) || (kind === THERE && f < 0.5)) continue;
       if (kind === JUMPS) f = f < 0.5 ? 0 : 1;
-      const c = [0, 1, 2].map((axis) => here.array[4 * n + axis] + f * (there.array[4 * n + axis] - here.array[4 * n + axis]));
+      const c = [0, 1, 2].map((axis) => here[4 * n + axis] + f * (there[4 * n + axis] - here[4 * n + axis]));
       const x = c[0] - o.x, y = c[1] - o.y, z = c[2] - o.z;
       const along = x * u.x + y * u.y + z * u.z;
-      const inside = body.array[2 * n] ** 2 - (x * x + y * y + z * z - along * along);
+      const inside = body[4 * n] ** 2 - (x * x + y * y + z * z - along * along);
       if (inside <= 0) continue;
       let t = along - Math.sqrt(inside);
       if (plane && plane.distanceToPoint(o.clone().addScaledVector(u, t)) > 0) {

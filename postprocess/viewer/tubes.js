@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 import * as THREE from "three";
+import { fetchRecord, Records, repeated } from "./records.js";
+
+const SIDES = 8;
 
 const vertexShader = /* glsl */ `
 precision highp float;
-in vec3 position; // on a tube of radius 1 along z, from 0 to 1
-in vec4 from, to; // ends, radius, value
+precision highp int;
+uniform highp sampler2D froms, tos; // one end and the radius, the other end and the value
 uniform mat4 modelViewMatrix, projectionMatrix;
 out vec3 normal, place;
 flat out float value;
+${fetchRecord}
 void main() {
+  int tube = gl_VertexID / ${2 * SIDES};
+  int vertex = gl_VertexID % ${2 * SIDES};
+  vec4 from = record(froms, tube), to = record(tos, tube);
+  float turn = float(vertex / 2) * ${((2 * Math.PI) / SIDES).toFixed(6)};
+  vec3 position = vec3(cos(turn), sin(turn), float(vertex % 2));
   vec3 along = to.xyz - from.xyz;
   vec3 axis = normalize(along + vec3(0.0, 0.0, 1e-12));
   vec3 side = normalize(cross(axis, abs(axis.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
@@ -43,9 +52,10 @@ export class Tubes {
       glslVersion: THREE.GLSL3,
       vertexShader,
       fragmentShader,
-      uniforms: { ramp: { value: this.texture }, clip: { value: new THREE.Vector4() } },
+      uniforms: { ramp: { value: this.texture }, clip: { value: new THREE.Vector4() }, froms: { value: null }, tos: { value: null } },
+      side: THREE.DoubleSide,
     });
-    this.mesh = new THREE.Mesh(new THREE.InstancedBufferGeometry(), this.material);
+    this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), this.material);
     this.mesh.frustumCulled = false;
     this.mesh.visible = false;
     this.capacity = 0;
@@ -55,25 +65,26 @@ export class Tubes {
   makeRoom(count) {
     if (count <= this.capacity) return;
     this.capacity = Math.ceil(1.2 * count);
-    const shape = new THREE.CylinderGeometry(1, 1, 1, 10, 1, true).rotateX(Math.PI / 2).translate(0, 0, 0.5);
-    const geometry = new THREE.InstancedBufferGeometry();
-    geometry.setAttribute("position", shape.getAttribute("position"));
-    geometry.setIndex(shape.getIndex());
-    for (const name of ["from", "to"]) geometry.setAttribute(name, new THREE.InstancedBufferAttribute(new Float32Array(4 * this.capacity), 4));
+    const sides = Array.from({ length: SIDES }, (_, k) => [2 * k, 2 * ((k + 1) % SIDES)]);
     this.mesh.geometry.dispose();
-    this.mesh.geometry = geometry;
+    this.mesh.geometry = repeated(sides.flatMap(([a, b]) => [a, b, b + 1, a, b + 1, a + 1]), 2 * SIDES, this.capacity);
+    for (const name of ["froms", "tos"]) {
+      this[name]?.dispose();
+      this[name] = new Records(this.capacity);
+      this.material.uniforms[name].value = this[name].texture;
+    }
   }
 
   /** Draws these: each from a point to a point, with a radius and a value from 0 to 1. */
   draw(tubes) {
     this.makeRoom(tubes.length);
-    const { from, to } = this.mesh.geometry.attributes;
     tubes.forEach(({ a, b, radius, value }, n) => {
-      from.array.set([...a, radius], 4 * n);
-      to.array.set([...b, value], 4 * n);
+      this.froms.array.set([...a, radius], 4 * n);
+      this.tos.array.set([...b, value], 4 * n);
     });
-    this.mesh.geometry.instanceCount = tubes.length;
+    this.mesh.geometry.setDrawRange(0, 6 * SIDES * tubes.length);
     this.mesh.visible = tubes.length > 0;
-    from.needsUpdate = to.needsUpdate = true;
+    this.froms.changed();
+    this.tos.changed();
   }
 }
