@@ -9,7 +9,6 @@ It works on a run that is still going on, or was killed, as far as it came.
 Exit codes: 0 done, 2 wrong arguments or something missing, 4 the page cannot be written.
 """
 import argparse
-import os
 import sys
 from pathlib import Path
 
@@ -22,6 +21,7 @@ except ImportError as error:
 
 from read_run import Run, RunError
 from run_page.page import RunPage, report_page
+from run_page.writing import refuse_foreign, write_whole
 
 
 def positive(argument):
@@ -37,23 +37,6 @@ def parse_arguments():
     parser.add_argument("--force", action="store_true", help="replace a file that is no page of Talus")
     parser.add_argument("--frames", type=positive, metavar="N", help="how many frames to play (60; fewer of over 33 000 spheres)")
     return parser.parse_args()
-
-
-def refuse_foreign(path):
-    """Raises RunError where the file is there and holds something that is no page of Talus."""
-    if path.is_file() and b'<meta name="generator" content="Talus">' not in path.read_bytes()[:2000]:
-        raise RunError(f"{path} is there already and is no page of Talus; --force replaces it.")
-
-
-def write_whole(path, page):
-    """Writes a file that is there whole or not at all."""
-    beside = path.with_name(path.name + ".part")
-    try:
-        beside.write_text(page, encoding="utf-8")
-        os.replace(beside, path)
-    except OSError:
-        beside.unlink(missing_ok=True)
-        raise
 
 
 def main():

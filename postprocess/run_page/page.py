@@ -160,7 +160,7 @@ def report_body(data, picture):
 <div data-section="results">{sections['results']}</div>
 </header>
 <main>
-<div class="play">
+<div class="linked">
 <section id="stage" class="stage" aria-label="The run, playing">{image}</section>
 <section id="charts" class="charts" aria-label="Charts over time"></section>
 </div>

@@ -40,7 +40,8 @@ def seconds(value):
     return f"{minutes:.0f} min" if minutes < 120 else f"{minutes / 60:.1f} h"
 
 
-STATUS = {"done": "done", "failed": "failed", "interrupted": "stopped", "running": "running", "ended": "no summary"}
+CARDS = 5  # results shown at once
+STATUS = {"done": "done", "failed": "failed", "interrupted": "stopped", "running": "running", "ended": "broken off"}
 
 
 def lead(run, facts):
@@ -80,7 +81,7 @@ def results(run):
             cards.append(f"<div class='card quiet'><span>{text(sensor)}</span><p>{text(silent[0])}</p></div>")
     if not cards:
         return ""
-    shown, hidden = cards[:8], cards[8:]
+    shown, hidden = cards[:CARDS], cards[CARDS:]
     more = f"<details class='more'><summary>{len(hidden)} more results</summary><div class='cards'>{''.join(hidden)}</div></details>" if hidden else ""
     return f"<div class='cards'>{''.join(shown)}</div>{more}"
 
@@ -98,7 +99,7 @@ def modelled(run):
             ("Restitution", "Newton, e = " + range_of("restitution") if any(one.get("restitution") for one in contacts) else "left out"),
             ("Rolling resistance", range_of("rolling_friction") if any(one.get("rolling_friction") for one in contacts) else "left out"),
             ("Rotation", "as solid spheres" if world.get("rotation", True) else "left out"),
-            ("Gravity", " , ".join(number(float(one)) for one in world.get("gravity", [])).replace(" ,", ",") + " m/s²")]
+            ("Gravity", ", ".join(number(float(one)) for one in world.get("gravity", [])) + " m/s²")]
     moving = [wall["name"] for wall in walls if wall.get("motion")]
     pistons = [wall["name"] for wall in walls if math.isfinite(wall.get("mass", math.inf))]
     rows.append(("Walls", ", ".join(wall["name"] for wall in walls) or "none"))

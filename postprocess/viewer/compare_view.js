@@ -4,6 +4,7 @@ import { Clock } from "./clock.js";
 import { h } from "./dom.js";
 import { Player } from "./player.js";
 import { Recording } from "./recording.js";
+import { boxOf } from "./stage.js";
 import { columnsOf, everyPicture, span } from "./run_view.js";
 import { followKeys, transport } from "./transport.js";
 
@@ -24,6 +25,7 @@ export class CompareView {
     const place = document.getElementById("stage");
     const pair = h("div", { class: "beside" });
     place.append(pair);
+    this.box = runs.map(boxOf).reduce((all, one) => all.union(one)); // the same for all
     const able = runs.map((run, n) => n).filter((n) => runs[n].frames.times.length);
     this.players = [];
     try {
@@ -63,7 +65,7 @@ export class CompareView {
     await recording.load(k);
     await recording.load(Math.min(k + 1, recording.length - 1));
     const view = player.recording ? player.stage.view : null;
-    await player.show(recording);
+    await player.show(recording, this.box.clone());
     if (view) player.stage.view = view;
     this.sameColours();
     if (all) await this.loadAll(player);

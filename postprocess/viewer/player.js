@@ -9,7 +9,7 @@ const CHAIN_RADIUS = 0.85; // of the strongest force, in mean radii
 /** What is seen of a run: its stage, the colours, the clip plane, walls, chains, the grain that was clicked. */
 export class Player extends EventTarget {
   /** @param place the element to fill */
-  constructor(place, clock, { small = false } = {}) {
+  constructor(place, clock) {
     super();
     this.clock = clock;
     this.place = place;
@@ -22,7 +22,7 @@ export class Player extends EventTarget {
     this.frame = h("div", { class: "frame" }, this.canvas, h("div", { class: "corner" }, this.caption, this.legend), this.card);
     place.append(this.frame);
     this.stage = new Stage(this.canvas, () => this.dispatchEvent(new Event("view")));
-    this.stage.controls.enableZoom = small; // the page scrolls over it until it is clicked
+    this.stage.controls.enableZoom = false; // the page scrolls over it until it is clicked
     this.canvas.addEventListener("focus", () => (this.stage.controls.enableZoom = true));
     this.canvas.addEventListener("blur", () => (this.stage.controls.enableZoom = false));
     this.followClicks();
@@ -36,10 +36,11 @@ export class Player extends EventTarget {
     this.stage.spheres.material.uniforms.accent.value.fromArray(rgb(schemeColour("accent")).map((c) => c / 255));
   }
 
-  async show(recording) {
+  /** Takes a recording. @param box [m] that is seen at first, where it is not that of the recording alone */
+  async show(recording, box) {
     const first = !this.recording;
     this.recording = recording;
-    await this.stage.show(recording);
+    await this.stage.show(recording, box);
     this.colourings = colourings(recording);
     this.pair = null;
     if (first) {
@@ -106,7 +107,7 @@ export class Player extends EventTarget {
     this.frame.toggleAttribute("data-no-chains", this.options.chains && !contacts);
     if (!contacts) return stage.chains.draw([]);
     const tubes = [];
-    const most = recording.data.contacts.reduce((top, one) => Math.max(top, one.mean), 0) * 5;
+    const most = this.strongForce;
     for (let n = 0; n < contacts.a.length; ++n) {
       const a = this.placeOfId(contacts.a[n], k, f);
       if (!a) continue;
@@ -194,15 +195,30 @@ export class Player extends EventTarget {
       : rampBytes(options.ramp, colouring.bands ?? 0);
     this.stage.spheres.setRamp(bytes);
     const parts = [];
-    if (colouring.categories)
+    if (options.chains && this.recording.data.contacts.length)
+      parts.push(this.legendBar(rampBytes("sand")), this.legendEnds("0", "N, force", `≥ ${short(this.strongForce)}`));
+    else if (colouring.categories)
       parts.push(h("ul", {}, ...colouring.categories.map((name, n) => h("li", {}, h("i", { style: `background:${CATEGORIES[n % CATEGORIES.length]}` }), name))));
     else if (!colouring.plain) {
-      const bar = h("canvas", { width: 256, height: 1, "aria-hidden": "true" });
-      bar.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(bytes), 256, 1), 0, 0);
       const [low, high] = colouring.range;
-      parts.push(bar, h("div", { class: "ends" }, h("span", {}, short(low)), h("span", {}, colouring.unit), h("span", {}, `${colouring.open ? "≥ " : ""}${short(high)}`)));
+      parts.push(this.legendBar(bytes), this.legendEnds(short(low), colouring.unit, `${colouring.open ? "≥ " : ""}${short(high)}`));
     }
     this.legend.replaceChildren(...parts);
+  }
+
+  legendBar(bytes) {
+    const bar = h("canvas", { width: 256, height: 1, "aria-hidden": "true" });
+    bar.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(bytes), 256, 1), 0, 0);
+    return bar;
+  }
+
+  legendEnds(...ends) {
+    return h("div", { class: "ends" }, ...ends.map((one) => h("span", {}, one)));
+  }
+
+  /** The force of the last colour: five times the greatest mean [N]. */
+  get strongForce() {
+    return 5 * this.recording.data.contacts.reduce((top, one) => Math.max(top, one.mean), 0);
   }
 
   /** The choices of what is seen: the toolbar. */

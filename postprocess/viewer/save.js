@@ -34,7 +34,7 @@ export function pictureOf(player, ratio = 2) {
     pen.drawImage(bar, 2 * unit, 2 * unit + 2.9 * size, 12 * size, 0.7 * size);
     pen.font = `${0.7 * size}px system-ui, sans-serif`;
     const ends = [...player.legend.querySelectorAll(".ends span")].map((one) => one.textContent);
-    pen.fillText(`${player.colouring.name.toLowerCase()}  ${ends[0]} to ${ends[2]} ${ends[1]}`, 2 * unit, 2 * unit + 3.8 * size);
+    pen.fillText(`${player.options.chains ? "" : `${player.colouring.name.toLowerCase()}  `}${ends[0]} to ${ends[2]} ${ends[1]}`, 2 * unit, 2 * unit + 3.8 * size);
   }
   stage.isFine = false;
   stage.stir();

@@ -53,6 +53,18 @@ void main() {
 }`,
 };
 
+/** The box around what a run shows [m]: grains, and walls that are not much larger. */
+export function boxOf(data) {
+  const boxFrom = ([low, high]) => new THREE.Box3(new THREE.Vector3(...low), new THREE.Vector3(...high));
+  const box = boxFrom(data.frames.box);
+  const size = box.getSize(new THREE.Vector3()).length();
+  for (const wall of data.walls) {
+    const ofWall = boxFrom(wall.box);
+    if (ofWall.getSize(new THREE.Vector3()).length() <= 2 * size) box.union(ofWall);
+  }
+  return box;
+}
+
 /** Where the grains are drawn: a canvas, a camera that the user turns, and what stands there. */
 export class Stage {
   /** @param changed is called when the view has been changed by the user */
@@ -97,15 +109,8 @@ export class Stage {
     this.drawn = 0; // pictures so far
   }
 
-  /** Takes a recording: its box becomes the middle of the stage. */
-  async show(recording) {
-    const [low, high] = recording.data.frames.box;
-    const box = new THREE.Box3(new THREE.Vector3(...low), new THREE.Vector3(...high));
-    const size = box.getSize(new THREE.Vector3()).length();
-    for (const wall of recording.data.walls) {
-      const ofWall = new THREE.Box3(new THREE.Vector3(...wall.box[0]), new THREE.Vector3(...wall.box[1]));
-      if (ofWall.getSize(new THREE.Vector3()).length() <= 2 * size) box.union(ofWall);
-    }
+  /** Takes a recording. @param box [m] that becomes the middle of the stage */
+  async show(recording, box = boxOf(recording.data)) {
     const length = SIZE / Math.max(box.getSize(new THREE.Vector3()).length(), 1e-30);
     const middle = box.getCenter(new THREE.Vector3()).toArray();
     const shiftOfMetres = middle.map((one) => -length * one);
