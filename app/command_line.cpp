@@ -90,6 +90,16 @@ void add_force_flag(CLI::App& verb, CommandLine& line)
     verb.add_flag("--force", line.force, "Replace a file that is there already");
 }
 
+void add_new(CLI::App& app, CommandLine& line)
+{
+    CLI::App* verb = app.add_subcommand("new", "Write a commented scene to start from");
+    verb->add_option("NAME", line.out, "The scene file; .toml is added")->required()->type_name("");
+    verb->add_option("--from", line.scene, "Copy this scene that 'talus list' shows, and the files that it names")
+        ->type_name("SCENE");
+    verb->footer("Example: talus new my_hopper --from hopper\nNothing that is there is replaced.");
+    verb->callback([&] { line.verb = CommandLine::Verb::new_scene; });
+}
+
 void add_run(CLI::App& app, CommandLine& line)
 {
     CLI::App* verb = app.add_subcommand("run", "Run a scene and write frames, metrics and a summary");
@@ -321,6 +331,7 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
     app.set_version_flag("--version", "talus " TALUS_VERSION " (" TALUS_LIBRARIES ")");
     app.require_subcommand(0, 1); // none at all is told below, better than by CLI11
     app.footer("Example: talus run hopper");
+    add_new(app, line);
     add_run(app, line);
     add_resume(app, line);
     add_check(app, line);
@@ -343,9 +354,9 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
             "{}; see 'talus {}--help'", error.what(), verbs.empty() ? "" : verbs.front()->get_name() + " "));
     }
     if (app.get_subcommands().empty())
-        throw UsageError(
-            "say what to do: run, resume, report, watch, check, keys, list, export, dump, solve or study; see 'talus "
-            "--help'");
+        throw UsageError("say what to do: new, run, resume, report, watch, check, keys, list, export, dump, solve or "
+                         "study; see 'talus "
+                         "--help'");
     return line;
 }
 

@@ -31,7 +31,7 @@ enum class ExportFormat { lammps_dump, csv, vtp, lammps, liggghts };
 
 /// What the user asked for, first of all of which scene.
 struct CommandLine : SceneRequest {
-    enum class Verb { run, resume, check, keys, list, dump, solve, study, export_files, report, watch };
+    enum class Verb { new_scene, run, resume, report, watch, check, keys, list, export_files, dump, solve, study };
     Verb verb = Verb::list;
     std::string table; ///< of keys: the one to show; empty: all
     double at = 0.0;   ///< of dump [s]

@@ -7,6 +7,7 @@
 #include "app/verbs/check_scene.hpp"
 #include "app/verbs/dump_step.hpp"
 #include "app/verbs/export_files.hpp"
+#include "app/verbs/new_scene.hpp"
 #include "app/verbs/run_page.hpp"
 #include "app/verbs/run_scene.hpp"
 #include "app/verbs/solve_problem.hpp"
@@ -50,6 +51,9 @@ ExitCode execute(const CommandLine& line)
 {
     if (!line.log.empty()) open_log(line.log);
     switch (line.verb) {
+    case CommandLine::Verb::new_scene:
+        new_scene(line);
+        break;
     case CommandLine::Verb::run:
         return run_scene(line);
     case CommandLine::Verb::resume:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/loop/open_scene.hpp"
 
+#include "app/system/own_files.hpp"
 #include "app/system/terminal.hpp"
 #include "io/text/input_error.hpp"
 #include "scenarios/build/build_scene.hpp"
@@ -17,14 +18,18 @@ namespace fs = std::filesystem;
 
 fs::path scene_path(const std::string& scene)
 {
-    if (fs::is_regular_file(scene)) return scene;
-    const fs::path supplied = fs::path(TALUS_SCENARIOS_FOLDER) / (scene + ".toml");
-    if (fs::is_regular_file(supplied)) return supplied;
+    return fs::is_regular_file(scene) ? fs::path(scene) : supplied_scene(scene);
+}
 
+fs::path supplied_scene(const std::string& name)
+{
     std::vector<std::string> names;
-    for (const fs::path& path : supplied_scenes()) names.push_back(path.stem());
+    for (const fs::path& path : supplied_scenes()) {
+        if (path.stem() == name) return path;
+        names.push_back(path.stem());
+    }
     throw UsageError(
-        fmt::format("there is no scene '{}': it is neither a file nor one of {}", scene, fmt::join(names, ", ")));
+        fmt::format("there is no scene '{}': it is neither a file nor one of {}", name, fmt::join(names, ", ")));
 }
 
 SceneFile read_scene_as_asked(const fs::path& path, const SceneRequest& request)
@@ -62,9 +67,12 @@ void warn_unless_protected(const FolderLock& lock)
 
 std::vector<fs::path> supplied_scenes()
 {
+    const fs::path folder = own_files() / "scenarios";
+    std::error_code error;
     std::vector<fs::path> scenes;
-    for (const auto& entry : fs::directory_iterator(TALUS_SCENARIOS_FOLDER))
+    for (const auto& entry : fs::directory_iterator(folder, error))
         if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
+    if (error) throw UsageError(fmt::format("the scenes of Talus are not in {}: {}", folder.string(), error.message()));
     std::sort(scenes.begin(), scenes.end());
     return scenes;
 }

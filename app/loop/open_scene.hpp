@@ -34,6 +34,10 @@ struct OpenedScene {
 /// @throws UsageError where there is no such scene
 std::filesystem::path scene_path(const std::string& scene);
 
+/// The file of a scene that comes with Talus.
+/// @throws UsageError where there is no such scene
+std::filesystem::path supplied_scene(const std::string& name);
+
 /// Finds, reads and builds a scene, with what the request changes in it.
 /// @throws InputError with file, line and column; UsageError where there is no such scene
 OpenedScene open_scene(const SceneRequest& request);
@@ -50,6 +54,7 @@ OpenedScene build_opened(SceneFile file, std::string name);
 void warn_unless_protected(const FolderLock& lock);
 
 /// The scene files that come with Talus, by name.
+/// @throws UsageError where they are not where they belong
 std::vector<std::filesystem::path> supplied_scenes();
 
 } // namespace talus

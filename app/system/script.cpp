@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/system/script.hpp"
 
+#include "app/system/own_files.hpp"
 #include "app/system/terminal.hpp"
 
 #include <array>
@@ -22,16 +23,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* python = "/usr/bin/python3"; ///< for which Debian has python3-vtk9
 
-/// A script in the source tree, or where an installed Talus has it.
 fs::path script_path(const std::string& script)
 {
+    const fs::path path = own_files() / "postprocess" / script;
     std::error_code error;
-    const fs::path binary = fs::read_symlink("/proc/self/exe", error);
-    for (const fs::path& folder :
-        {fs::path(TALUS_POSTPROCESS_FOLDER), binary.parent_path() / "../share/talus/postprocess"})
-        if (fs::is_regular_file(folder / script, error)) return folder / script;
-    throw UsageError(fmt::format("the script {} is not there: {} is gone, and nothing is installed in its place",
-        script, TALUS_POSTPROCESS_FOLDER));
+    if (!fs::is_regular_file(path, error)) throw UsageError(fmt::format("the script {} is not there", path.string()));
+    return path;
 }
 
 /// What is executed, as the system takes it.

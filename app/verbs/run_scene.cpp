@@ -4,6 +4,7 @@
 #include "app/loop/run_loop.hpp"
 #include "app/loop/run_origin.hpp"
 #include "app/loop/run_report.hpp"
+#include "app/system/own_files.hpp"
 #include "app/system/script.hpp"
 #include "app/system/signals.hpp"
 #include "app/verbs/check_scene.hpp"
@@ -82,7 +83,7 @@ void print_incidents(const RunSummary& summary, const fs::path& folder, const st
 /// Names the command that makes a picture of the run, by the shorter of its paths.
 void advise_to_look(const fs::path& folder)
 {
-    const fs::path script = fs::path(TALUS_SCENARIOS_FOLDER).parent_path() / "postprocess" / "render.py";
+    const fs::path script = own_files() / "postprocess" / "render.py";
     std::error_code error;
     if (!fs::exists(script, error)) return;
     const std::string from_here = fs::proximate(script, error).string();

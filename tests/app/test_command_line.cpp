@@ -27,8 +27,8 @@ TEST_CASE("wrong arguments end with 2 and one sentence", "[app][command line]")
 TEST_CASE("every verb has help with an example", "[app][command line]")
 {
     const Workplace place;
-    const std::string verb = GENERATE(as<std::string>{}, "run", "resume", "report", "watch", "check", "keys", "list",
-        "export", "dump", "solve", "study");
+    const std::string verb = GENERATE(as<std::string>{}, "new", "run", "resume", "report", "watch", "check", "keys",
+        "list", "export", "dump", "solve", "study");
     const Outcome outcome = place.talus(verb + " --help");
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.out, Contains("Example: talus " + verb));

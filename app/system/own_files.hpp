@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+namespace talus
+{
+
+/// The folder of what comes with the program: `scenarios` and `postprocess`. Where the program is installed it is
+/// share/talus beside its own folder, wherever that was moved to; else the source tree that it was built from.
+std::filesystem::path own_files();
+
+} // namespace talus
