@@ -29,7 +29,7 @@ endforeach()
 target_include_directories(talus_core_base PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/talus>)
 target_compile_features(talus_core_base INTERFACE cxx_std_20)
 target_link_libraries(talus_core_base INTERFACE $<INSTALL_INTERFACE:Eigen3::Eigen> $<INSTALL_INTERFACE:OpenMP::OpenMP_CXX>)
-install(TARGETS ${rooms} EXPORT talus ARCHIVE COMPONENT development)
+install(TARGETS ${rooms} EXPORT talus ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/talus COMPONENT development)
 install(DIRECTORY core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/talus COMPONENT development FILES_MATCHING PATTERN "*.hpp")
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/Talus)
 install(EXPORT talus NAMESPACE Talus:: FILE TalusTargets.cmake DESTINATION ${config} COMPONENT development)
@@ -74,6 +74,7 @@ install(DIRECTORY ${docs}/html/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html COMPONE
   PATTERN objects.inv EXCLUDE)
 
 # Debian packages, into packages/ of the build folder: talus, libtalus-dev and, where the site was built, talus-doc.
+set(TALUS_MAINTAINER "The authors of Talus <maintainers@talus.invalid>" CACHE STRING "Who answers for the packages")
 set(changelog ${PROJECT_BINARY_DIR}/changelog)
 configure_file(app/debian/changelog.in ${changelog} @ONLY)
 foreach(package IN ITEMS "talus;talus" "development;libtalus-dev" "site;talus-doc")
@@ -92,29 +93,31 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The authors of Talus <talus@localhost>")
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER ${TALUS_MAINTAINER})
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TALUS_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_TALUS_PACKAGE_DEPENDS "python3:any")
 set(CPACK_DEBIAN_TALUS_PACKAGE_RECOMMENDS "python3-vtk9, python3-numpy, python3-matplotlib, xvfb, xauth")
 set(CPACK_DEBIAN_TALUS_PACKAGE_SUGGESTS "talus-doc, paraview, ffmpeg")
 set(CPACK_COMPONENT_TALUS_DESCRIPTION "${PROJECT_DESCRIPTION}
- Many spheres in contact with Coulomb friction, stepped with the nonsmooth
- discrete element method and solved by projected Gauss-Seidel. A scene is a
- TOML file; a run writes frames for ParaView, tables of metrics and a summary
- with its errors. The same input gives the same bits for any number of
- threads.")
+Many spheres in contact with Coulomb friction, stepped with the nonsmooth
+discrete element method and solved by projected Gauss-Seidel. A scene is a
+TOML file; a run writes frames for ParaView, tables of metrics and a summary
+with its errors. The same input gives the same bits for any number of
+threads.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libcgal-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libcgal-dev, g++")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Granular dynamics: the core as a library
- Headers and static libraries of the step of Talus, and what CMake needs to
- find them.")
+Headers and static libraries of the step of Talus, and what CMake needs to
+find them.")
 set(CPACK_DEBIAN_SITE_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_SITE_PACKAGE_ARCHITECTURE all)
 set(CPACK_COMPONENT_SITE_DESCRIPTION "Granular dynamics: documentation
- The site of Talus, to be read from the disk: tutorial, gallery, every key of
- a scene, the method, what was measured, limits.")
+The site of Talus, to be read from the disk: tutorial, gallery, every key of
+a scene, the method, what was measured, limits.")
 set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_BINARY_DIR}/packages.cmake)
 file(CONFIGURE OUTPUT ${CPACK_PROJECT_CONFIG_FILE} CONTENT [[
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each has its own
 set(CPACK_COMPONENTS_ALL talus development)
 if(EXISTS @docs@/html/index.html)
   list(APPEND CPACK_COMPONENTS_ALL site)

@@ -13,6 +13,7 @@ int main()
 
     Model model;
     model.time_step = 2e-4; // s
+    model.solver.tolerance = 1e-6;
     model.materials.list = {{"glass", 2500.0}};
     model.materials.laws = {{.friction = 0.5}};
     model.walls.push_back({.name = "floor", .shape = Plane{}});
