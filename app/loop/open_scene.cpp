@@ -16,20 +16,30 @@ namespace talus
 
 namespace fs = std::filesystem;
 
-fs::path scene_path(const std::string& scene)
+namespace
 {
-    return fs::is_regular_file(scene) ? fs::path(scene) : supplied_scene(scene);
-}
 
-fs::path supplied_scene(const std::string& name)
+/// @param otherwise what to say before the names of the scenes that there are
+fs::path supplied_scene(const std::string& name, const std::string& otherwise)
 {
     std::vector<std::string> names;
     for (const fs::path& path : supplied_scenes()) {
         if (path.stem() == name) return path;
         names.push_back(path.stem());
     }
-    throw UsageError(
-        fmt::format("there is no scene '{}': it is neither a file nor one of {}", name, fmt::join(names, ", ")));
+    throw UsageError(fmt::format("there is no scene '{}': it is {} {}", name, otherwise, fmt::join(names, ", ")));
+}
+
+} // namespace
+
+fs::path scene_path(const std::string& scene)
+{
+    return fs::is_regular_file(scene) ? fs::path(scene) : supplied_scene(scene, "neither a file nor one of");
+}
+
+fs::path supplied_scene(const std::string& name)
+{
+    return supplied_scene(name, "none of those that come with Talus:");
 }
 
 SceneFile read_scene_as_asked(const fs::path& path, const SceneRequest& request)

@@ -217,7 +217,7 @@ class Scene:
 
     def figures(self, run):
         summary = run["summary"]
-        return (f"{summary['ledger']['inserted']} spheres, {summary['time']['simulated']:g} s in "
+        return (f"{summary['ledger']['inserted']} spheres, {summary['time']['simulated']:.3g} s in "
                 f"{summary['timing']['cpu']:.0f} CPU seconds")
 
     def card(self, run):

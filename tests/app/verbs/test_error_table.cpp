@@ -305,9 +305,11 @@ std::string in_table(std::string text, const Workplace& place)
 {
     const std::string folder = place.path("").string();
     for (std::size_t at; (at = text.find(folder)) != std::string::npos;) text.replace(at, folder.size(), "/…/");
-    return table_cell(as_shown(text, {{"neither a file nor one of .*", "neither a file nor one of …"},
-                                         {R"(is at \(.*\) m with .* m/s)", "is at (…) m with … m/s"},
-                                         {R"(by [^ ]* m at \([^)]*\) m)", "by … m at (…) m"}}));
+    return table_cell(
+        as_shown(text, {{"neither a file nor one of .*", "neither a file nor one of …"},
+                           {"none of those that come with Talus: .*", "none of those that come with Talus: …"},
+                           {R"(is at \(.*\) m with .* m/s)", "is at (…) m with … m/s"},
+                           {R"(by [^ ]* m at \([^)]*\) m)", "by … m at (…) m"}}));
 }
 
 /// A row of the table, checked for what every complaint must be: one line, on standard error, with an exit code.
