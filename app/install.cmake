@@ -13,7 +13,7 @@ install(TARGETS talus RUNTIME COMPONENT talus)
 install(DIRECTORY scenarios/ DESTINATION ${data}/scenarios COMPONENT talus
   FILES_MATCHING REGEX "\\.(toml|stl|vtu|LICENSE)$" PATTERN build EXCLUDE)
 install(DIRECTORY postprocess/ DESTINATION ${data}/postprocess COMPONENT talus USE_SOURCE_PERMISSIONS
-  FILES_MATCHING PATTERN "*.py" PATTERN "*.js" PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE
+  FILES_MATCHING PATTERN "*.py" REGEX "viewer/bundle/" PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE
   PATTERN pictures EXCLUDE)
 install(FILES app/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME talus
   COMPONENT talus)
