@@ -31,8 +31,8 @@ export class Player extends EventTarget {
   }
 
   applyScheme() {
-    const colours = Object.fromEntries(["stage", "wall", "ink"].map((name) => [name, rgb(schemeColour(name)).map((c) => c / 255)]));
-    this.stage.setScheme({ back: colours.stage, face: colours.wall, edge: colours.ink });
+    const colours = Object.fromEntries(["stage", "back", "wall", "ink"].map((name) => [name, rgb(schemeColour(name)).map((c) => c / 255)]));
+    this.stage.setScheme({ back: colours.stage, page: colours.back, face: colours.wall, edge: colours.ink });
     this.stage.spheres.material.uniforms.accent.value.fromArray(rgb(schemeColour("accent")).map((c) => c / 255));
   }
 

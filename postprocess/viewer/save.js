@@ -16,7 +16,7 @@ function nameFor(player, ending) {
 /** Draws the stage with title, time and colours onto a canvas of its own. */
 export function pictureOf(player, ratio = 2) {
   const { stage, clock } = player;
-  stage.draw(ratio, true);
+  stage.draw(ratio, true, 0);
   const { width, height } = stage.canvas;
   const paper = h("canvas", { width, height });
   const pen = paper.getContext("2d");
@@ -58,7 +58,7 @@ export async function saveFilm(player) {
   clock.play(false);
   clock.seek(clock.from);
   stage.fixedRatio = Math.max(1, ratio); // a film keeps its size
-  stage.draw(stage.fixedRatio, true);
+  stage.draw(stage.fixedRatio, true, 0);
   recorder.start();
   tell("Recording the run from its beginning; press play to stop early");
   clock.play(true);

@@ -12,6 +12,7 @@ const SIZE = 10; // of what is seen, on the stage
 const TANGENT = 0.23; // of half the angle of view
 export const FIRST_VIEW = { azimuth: -73, elevation: 13 }; // degrees, as in run_page/still.py
 const LOWEST = 0.4; // pixels drawn for a pixel of the page, while things move on a slow machine
+const ROUNDING = 12; // of the canvas's corners [px]; drawn here, as a style sheet's cost a fifth of a picture without a graphics card
 const SLOW = 45; // ms that a picture may take
 
 const onto = {
@@ -22,6 +23,9 @@ uniform sampler2D colour, depth;
 uniform vec2 pixel;
 uniform float near, far, grain, reach;
 uniform bool fine;
+uniform vec2 size; // of the canvas in pixels of the page
+uniform float rounding; // of its corners, in the same
+uniform vec3 page; // what is seen outside them
 in vec2 at;
 out vec4 shown;
 float away(vec2 where) {
@@ -49,7 +53,8 @@ void main() {
     }
     seen *= exp(-shade);
   }
-  shown = vec4(seen, 1.0);
+  vec2 beyond = max(abs(at - 0.5) * size - 0.5 * size + rounding, 0.0);
+  shown = vec4(mix(seen, page, clamp(length(beyond) - rounding + 0.5, 0.0, 1.0)), 1.0);
 }`,
 };
 
@@ -97,6 +102,7 @@ export class Stage {
       uniforms: {
         colour: { value: this.target.texture }, depth: { value: this.target.depthTexture }, pixel: { value: new THREE.Vector2() },
         near: { value: 0 }, far: { value: 0 }, grain: { value: 1 }, reach: { value: 1 }, fine: { value: true },
+        size: { value: new THREE.Vector2() }, rounding: { value: ROUNDING }, page: { value: new THREE.Vector3() },
       },
     }));
     this.paper.frustumCulled = false;
@@ -130,7 +136,8 @@ export class Stage {
     this.stir();
   }
 
-  setScheme({ back, face, edge }) {
+  setScheme({ back, page, face, edge }) {
+    this.paper.material.uniforms.page.value.fromArray(page);
     this.renderer.setClearColor(new THREE.Color().setRGB(...back), 1);
     this.walls.setColours(face, edge);
     this.stir();
@@ -222,7 +229,7 @@ export class Stage {
     const sinceLast = now - (this.lastTick ?? now);
     this.lastTick = now;
     if (this.fixedRatio) {
-      if (this.dirty || moving) this.draw(this.fixedRatio, true);
+      if (this.dirty || moving) this.draw(this.fixedRatio, true, 0);
     } else if (this.dirty || moving) {
       this.learn(sinceLast);
       this.draw(this.ratio, this.ratio >= 1);
@@ -260,7 +267,8 @@ export class Stage {
 
   home = FIRST_VIEW;
 
-  draw(ratio, fine) {
+  /** @param rounding of the corners [px] */
+  draw(ratio, fine, rounding = ROUNDING) {
     if (!this.width) return;
     const width = Math.max(2, Math.round(ratio * this.width));
     const height = Math.max(2, Math.round(ratio * this.height));
@@ -294,6 +302,8 @@ export class Stage {
     uniforms.grain.value = 2.5 * this.meanRadius;
     uniforms.reach.value = (1.5 * this.meanRadius * height) / (2 * TANGENT);
     uniforms.fine.value = fine;
+    uniforms.size.value.set(this.width, this.height);
+    uniforms.rounding.value = rounding;
     this.renderer.render(this.paper, this.camera);
     ++this.drawn;
   }
