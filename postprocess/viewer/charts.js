@@ -4,6 +4,7 @@ import { short } from "./colours.js";
 import { h, schemeColour } from "./dom.js";
 
 const HEIGHT = 150;
+const PAPER_WIDTH = 320; // px, of half a page
 
 /** Of curves, told apart by the colour-blind; page.css has them, lighter on a dark page. */
 function curveColour(n) {
@@ -229,6 +230,18 @@ export class Charts {
       chart.width = width;
       chart.draw(width);
     }
+  }
+
+  /** On paper all charts are drawn, in two columns. */
+  fitPaper() {
+    for (const chart of this.list) {
+      chart.width = PAPER_WIDTH;
+      chart.draw(PAPER_WIDTH);
+    }
+  }
+
+  fitScreen() {
+    for (const chart of this.list) this.size(chart);
   }
 
   redraw() {

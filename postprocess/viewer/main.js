@@ -16,10 +16,12 @@ document.querySelectorAll("pre.copy").forEach((pre) => pre.addEventListener("cli
 
 // Paper shows the picture as it is now.
 addEventListener("beforeprint", () => {
+  view.charts.fitPaper();
   for (const player of [view.player, ...(view.players ?? [])].filter(Boolean)) {
     const still = player.place.querySelector("img.still") ?? player.frame.appendChild(Object.assign(new Image(), { className: "still" }));
     still.src = pictureOf(player).toDataURL("image/png");
   }
 });
+addEventListener("afterprint", () => view.charts.fitScreen());
 
 view.start().then(() => mode === "watch" && follow(view));

@@ -78,7 +78,7 @@ export class RunView {
       place.classList.add("no-webgl");
       return;
     }
-    clock.time = this.data.frames.times[this.bestFrame];
+    clock.time = this.data.status === "running" && document.body.dataset.mode === "watch" ? clock.to : this.data.frames.times[this.bestFrame];
     const wanted = Number(new URLSearchParams(location.hash.slice(1)).get("t") ?? NaN);
     this.recording = await Recording.open(this.data, this.blob);
     const { k } = this.recording.at(Number.isFinite(wanted) ? wanted : clock.time);
@@ -106,13 +106,15 @@ export class RunView {
 
   /** Charts of what the grains of the frame shown are like. */
   makeSurfaceCharts() {
-    const { clock, recording, data } = this;
+    const { clock, data } = this;
+    // What is found in a frame is kept while it is shown; a run that goes on has a new recording now and then.
     const keep = (find) => {
       let known = null;
       return () => {
+        const { recording } = this;
         const { k, f } = recording.at(clock.time);
         const nearest = f < 0.5 ? k : Math.min(k + 1, recording.length - 1);
-        if (known?.k !== nearest) known = { k: nearest, found: find(nearest) };
+        if (known?.k !== nearest || known.recording !== recording) known = { k: nearest, recording, found: find(nearest, recording) };
         return known.found;
       };
     };
@@ -125,7 +127,7 @@ export class RunView {
         title: `${sensor.name}: surface`, unit: "m", across: isHeap ? "distance from the axis [m]" : "along [m]",
         curves: [{ label: "surface", dots: true }, { label: "fit" }],
         note: isHeap ? "Means of the highest grains in rings a diameter wide; the line is fitted between 20 and 80 % of the height." : "Means of the highest grains in strips a diameter wide, with the line through them.",
-        make: keep((k) => {
+        make: keep((k, recording) => {
           const { places, heights, line } = (isHeap ? heapProfile : slopeProfile)(recording, k, sensor);
           return [places, heights, line];
         }),
@@ -138,13 +140,13 @@ export class RunView {
     this.charts.addPlain({
       title: "Packing over height", unit: "share of space", across: "height [m]", curves: [{ label: "packing" }],
       note: "Of the convex outline of the grains at that height, so it is low where a container is not convex.",
-      make: keep((k) => {
+      make: keep((k, recording) => {
         const { heights, shares } = packingOverHeight(recording, k);
         return [heights, shares];
       }),
     }, charts);
     if (data.contacts.length) {
-      const nearest = (k) => data.contacts.reduce((best, one) => (Math.abs(one.frame - k) < Math.abs(best.frame - k) ? one : best));
+      const nearest = (k) => this.data.contacts.reduce((best, one) => (Math.abs(one.frame - k) < Math.abs(best.frame - k) ? one : best));
       const force = this.charts.addPlain({
         title: "Distribution of forces", unit: "P(f / ⟨f⟩)", across: "f / ⟨f⟩", curves: [{ label: "P", dots: true }],
         note: "Of the normal forces in the frame of contacts nearest to the time shown.",
@@ -159,7 +161,7 @@ export class RunView {
         this.charts.addPlain({
           title: "Contacts of a grain", unit: "share of the grains", across: "contacts that carry force", curves: [{ label: "share" }],
           note: "In the same frame of contacts, walls included; grains that touch nothing are left out.",
-          make: keep((k) => {
+          make: keep((k, recording) => {
             const { touching } = recording.contactFrames.get(nearest(k).blob);
             const counts = new Array(13).fill(0);
             for (const one of touching) if (one > 0) ++counts[Math.min(12, one)];

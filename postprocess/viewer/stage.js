@@ -54,7 +54,7 @@ void main() {
     seen *= exp(-shade);
   }
   vec2 beyond = max(abs(at - 0.5) * size - 0.5 * size + rounding, 0.0);
-  shown = vec4(mix(seen, page, clamp(length(beyond) - rounding + 0.5, 0.0, 1.0)), 1.0);
+  shown = vec4(mix(seen, page, rounding > 0.0 ? clamp(length(beyond) - rounding + 0.5, 0.0, 1.0) : 0.0), 1.0);
 }`,
 };
 
@@ -220,6 +220,7 @@ export class Stage {
   /** Something is to be drawn anew. */
   stir() {
     this.dirty = true;
+    this.isFine = false;
     this.lastStir = performance.now();
   }
 

@@ -86,10 +86,7 @@ class Browser:
         self.wait(lambda: self.run("return (talus.players ?? [talus.player]).every((one) => one.stage.isFine || one.clock.playing)"), "the stage does not come to rest")
         path = self.folder / "picture.png"
         path.write_bytes(self.find(selector).screenshot_as_png)
-        reader = vtkPNGReader()
-        reader.SetFileName(str(path))
-        reader.Update()
-        return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(float)[:, :3]
+        return pixels(path)
 
     def time(self):
         return self.run("return talus.clock.time")
@@ -113,6 +110,14 @@ class Browser:
     def complaints(self):
         return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")
                 and "GPU stall" not in entry["message"] and "software WebGL" not in entry["message"]]
+
+
+def pixels(path):
+    """Those of a PNG file: rows of red, green and blue."""
+    reader = vtkPNGReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(float)[:, :3]
 
 
 def differ(a, b):
@@ -224,6 +229,7 @@ def problems_of_links(browser, address):
 
 def problems_of_saving(browser):
     """A picture and a film."""
+    seen = browser.picture().std()
     for tool, ending, head in (("picture", "png", b"\x89PNG"), ("film", "webm", b"\x1a\x45\xdf\xa3")):
         browser.run("talus.clock.rate = 0.2")
         browser.find(f"[data-tool={tool}]").click()
@@ -232,6 +238,8 @@ def problems_of_saving(browser):
         browser.wait(lambda: found[0].stat().st_size > 1000, f"an empty {ending} was saved")
         if not found[0].read_bytes().startswith(head):
             yield f"what was saved as {ending} is none"
+        if ending == "png" and pixels(found[0]).std() < 0.8 * seen:
+            yield "the picture that was saved is paler than what is seen"
 
 
 def problems_of_sizes(browser):
