@@ -28,9 +28,11 @@ foreach(room ${rooms})
 endforeach()
 target_include_directories(talus_core_base PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/talus>)
 target_compile_features(talus_core_base INTERFACE cxx_std_20)
-target_link_libraries(talus_core_base INTERFACE $<INSTALL_INTERFACE:Eigen3::Eigen> $<INSTALL_INTERFACE:OpenMP::OpenMP_CXX>)
+target_link_libraries(talus_core_base INTERFACE
+  $<INSTALL_INTERFACE:Eigen3::Eigen> $<INSTALL_INTERFACE:OpenMP::OpenMP_CXX>)
 install(TARGETS ${rooms} EXPORT talus ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/talus COMPONENT development)
-install(DIRECTORY core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/talus COMPONENT development FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/talus COMPONENT development
+  FILES_MATCHING PATTERN "*.hpp")
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/Talus)
 install(EXPORT talus NAMESPACE Talus:: FILE TalusTargets.cmake DESTINATION ${config} COMPONENT development)
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/TalusConfig.cmake @ONLY CONTENT [[
@@ -70,8 +72,8 @@ set(make_site
   COMMAND ${CMAKE_COMMAND} -E echo "the site: ${docs}/html/index.html")
 add_custom_target(docs ${make_pictures} ${make_site} DEPENDS talus USES_TERMINAL VERBATIM)
 add_custom_target(site ${make_site} DEPENDS talus USES_TERMINAL VERBATIM)
-install(DIRECTORY ${docs}/html/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html COMPONENT site OPTIONAL PATTERN .buildinfo EXCLUDE
-  PATTERN objects.inv EXCLUDE)
+install(DIRECTORY ${docs}/html/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html COMPONENT site OPTIONAL
+  PATTERN .buildinfo EXCLUDE PATTERN objects.inv EXCLUDE)
 
 # Debian packages, into packages/ of the build folder: talus, libtalus-dev and, where the site was built, talus-doc.
 set(TALUS_MAINTAINER "The authors of Talus <maintainers@talus.invalid>" CACHE STRING "Who answers for the packages")
@@ -82,8 +84,8 @@ foreach(package IN ITEMS "talus;talus" "development;libtalus-dev" "site;talus-do
   list(GET package 1 name)
   string(TOUPPER ${component} COMPONENT)
   set(CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME ${name})
-  install(FILES app/debian/copyright ${changelog}.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${component}
-    EXCLUDE_FROM_ALL)
+  install(FILES app/debian/copyright ${changelog}.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
+    COMPONENT ${component} EXCLUDE_FROM_ALL)
 endforeach()
 set(CPACK_GENERATOR DEB)
 set(CPACK_OUTPUT_FILE_PREFIX ${PROJECT_BINARY_DIR}/packages)
@@ -127,4 +129,5 @@ endif()
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 include(CPack)
 add_custom_command(OUTPUT ${changelog}.gz DEPENDS ${changelog} COMMAND gzip -9nkf ${changelog} VERBATIM)
-add_custom_target(deb COMMAND ${CMAKE_CPACK_COMMAND} -G DEB DEPENDS talus man ${rooms} ${changelog}.gz USES_TERMINAL VERBATIM)
+add_custom_target(deb COMMAND ${CMAKE_CPACK_COMMAND} -G DEB DEPENDS talus man ${rooms} ${changelog}.gz
+  USES_TERMINAL VERBATIM)

@@ -4,10 +4,10 @@
 
     app/site/assemble.py TALUS MADE SOURCE
 
-The READMEs of the tree are pages as they are, at their own places, so that links between them hold. What the program says
-of itself (`talus keys`, `--help`) and what gallery.py and tutorial.py left in the folder MADE are made into further pages.
-The rest is in pages/, in which lines `<<< WHAT` stand for a part of a README, a file or what a command prints. Everything
-goes to SOURCE, which is made anew.
+The READMEs of the tree are pages as they are, at their own places, so that links between them hold. What the program
+says of itself (`talus keys`, `--help`) and what gallery.py and tutorial.py left in the folder MADE become further pages.
+The rest is in pages/, in which lines `<<< WHAT` stand for a part of a README, a file or what a command prints.
+Everything goes to SOURCE, which is made anew.
 """
 import html
 import json
@@ -67,8 +67,8 @@ class Site:
         return Path("index.md") if page == Path("README.md") else page
 
     def linked(self, text, page, at):
-        """The text of a page of the tree, to stand at a place of the site: its links go to pages, or to copies of files;
-        those to folders, and in the site to nothing, become plain words."""
+        """The text of a page of the tree, to stand at a place of the site: its links go to pages, or to copies of
+        files; those to folders become plain words."""
         def replace(link):
             image, words, target, anchor = link[1], link[2], link[3], link[4] or ""
             file = Path(os.path.normpath(page.parent / target))
@@ -95,12 +95,13 @@ class Site:
         shutil.copytree(HERE / "tutorial", self.source / "tutorial")
         for path in sorted((HERE / "pages").glob("*.md")):
             at = Path(path.name)
-            text = re.sub(r"^<<< (.*[/$].*)$", lambda line, at=at: self.included(line[1], at), path.read_text(), flags=re.M)
+            text = re.sub(r"^<<< (.*[/$].*)$", lambda line, at=at: self.included(line[1], at), path.read_text(),
+                          flags=re.M)
             self.write(at, self.with_pictures(re.sub(r"^```sh run$", "```sh", text, flags=re.M)))
 
     def included(self, what, at):
-        """What stands for a line `<<< WHAT` of a page: what a command prints (`$ talus …`, in the folder of the tutorial),
-        a section of a README (FILE#heading), or a file."""
+        """What stands for a line `<<< WHAT` of a page: what a command prints (`$ talus …`, in the folder of the
+        tutorial), a section of a README (FILE#heading), or a file."""
         if what.startswith("$ talus "):
             printed = subprocess.run([self.talus, *shlex.split(what)[2:]], cwd=HERE / "tutorial", check=True,
                                      capture_output=True, text=True).stdout
@@ -145,7 +146,8 @@ class Site:
             if rows:
                 text += "| argument | meaning |\n| --- | --- |\n"
                 text += "".join(f"| `{name}` | {cell(meaning)} |\n" for name, meaning in rows)
-            text += "\n" + "\n\n".join(re.sub(r"^Example: (.*)", r"```sh\n\1\n```", line) for line in told.footer) + "\n"
+            footer = [re.sub(r"^Example: (.*)", r"```sh\n\1\n```", line) for line in told.footer]
+            text += "\n" + "\n\n".join(footer) + "\n"
         self.write(Path("commands.md"), text)
 
     def gallery(self):

@@ -5,9 +5,9 @@
     app/site/gallery.py TALUS FOLDER [SCENE…]
 
 Each scene leaves FOLDER/NAME.png, FOLDER/NAME.json (its command, commit and figures) and, if `talus report` is known,
-FOLDER/NAME.html, the report that plays the run. A scene that has them already is left alone until its file, its entry in
-gallery.toml or the commit's version of Talus is newer; delete FOLDER to make all anew. Runs go on one thread, so that the
-seconds that are told are those of one.
+FOLDER/NAME.html, the report that plays the run. A scene that has them already is left alone unless its file or its
+entry in gallery.toml has changed; delete FOLDER to make all anew, with another Talus for instance. Runs go on one
+thread, so that the seconds that are told are those of one.
 """
 import json
 import os
@@ -57,8 +57,8 @@ def make(talus, entry, folder):
         out = Path(place) / name
         command = arguments_of(entry)
         subprocess.run([talus, *command, "--quiet", "-o", out], check=True)
-        subprocess.run([ROOT / "postprocess" / "render.py", out, "--view", entry.get("view", "front"), "--size", "800x800",
-                        "--output", folder / f"{name}.png"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([ROOT / "postprocess" / "render.py", out, "--view", entry.get("view", "front"),
+                        "--size", "800x800", "--output", folder / f"{name}.png"], check=True, stdout=subprocess.DEVNULL)
         if has_verb(talus, "report"):
             subprocess.run([talus, "report", out], check=True, stdout=subprocess.DEVNULL)
             shutil.copy(out / "report.html", folder / f"{name}.html")

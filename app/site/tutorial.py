@@ -4,8 +4,8 @@
 
     app/site/tutorial.py TALUS FOLDER
 
-Runs the blocks of pages/tutorial.md that are marked `sh run`, one after the other, in a folder with the files of tutorial/;
-leaves what they draw in FOLDER. Nothing is done where that is newer than the tutorial.
+Runs the blocks of pages/tutorial.md that are marked `sh run`, one after the other, in a folder with the files of
+tutorial/; leaves what they draw in FOLDER. Nothing is done where that is newer than the tutorial.
 """
 import os
 import re
