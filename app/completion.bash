@@ -29,23 +29,26 @@ _talus()
     --from)
       COMPREPLY=($(compgen -W "$(_talus_scenes "$1")" -- "$word"))
       return ;;
-    --algorithm | --local | --order)
+    --algorithm | --format | --local | --order)
       COMPREPLY=($(compgen -W "$(_talus_choices "$1" "$verb" "$before")" -- "$word"))
       return ;;
-    -o | --out | --log-file | --settings | --history)
+    -o | --out | --output | --log-file | --settings | --history)
       compopt -o filenames
       COMPREPLY=($(compgen -f -- "$word"))
       return ;;
-    --accuracy | --at | --guess | --max-sweeps | --omega | --seed | --threads | --tolerance | --until) return ;;
+    --accuracy | --at | --frames | --guess | --max-sweeps | --omega | --seed | --threads | --tolerance | --until) return ;;
   esac
   if [[ $word == -* ]]; then
     COMPREPLY=($(compgen -W "$(_talus_options "$1" "$verb")" -- "$word"))
     return
   fi
   case $verb in
-    run | check | dump | study)
+    run | check | dump | export | study)
       compopt -o filenames
       COMPREPLY=($(compgen -W "$(_talus_scenes "$1")" -- "$word") $(compgen -d -- "$word") $(compgen -f -X '!*.toml' -- "$word")) ;;
+    resume | report | watch)
+      compopt -o filenames
+      COMPREPLY=($(compgen -d -- "$word")) ;;
     solve)
       compopt -o filenames
       COMPREPLY=($(compgen -d -- "$word") $(compgen -f -X '!*.hdf5' -- "$word")) ;;
