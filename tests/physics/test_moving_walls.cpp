@@ -115,6 +115,23 @@ TEST_CASE("a sphere stays on a plate shaken with less than g", "[moving_walls]")
     CHECK(worst < 1e-12);
 }
 
+TEST_CASE("a sphere on a plate that gets ever faster overlaps it as on one at rest with more gravity", "[moving_walls]")
+{
+    // In the plate's own frame v⁽⁰⁾ is what it was relative to the plate in the step before, and a is added to g. On
+    // one at rest q_n = −4Υ g/h at the end, so that the overlap is Σ_n m (g + a) h²/(4Υ), with Σ_n = 0.1/m.
+    const double a = GENERATE(1.0, -0.5) * standard_gravity;
+    constexpr int steps = 200;
+    Course course;
+    for (int k = 0; k <= steps; ++k)
+        course.waypoints.push_back({k * time_step, 0.5 * a * std::pow(k * time_step, 2) * Vec3::UnitZ()});
+    World world = sphere_on_moving_plane({}, matched_settings(), {course});
+    world.step(steps);
+    const auto forces = world.contact_forces();
+    REQUIRE(forces.size() == 1);
+    CHECK(forces[0].normal_force == within(1e-9, world.mass() * (standard_gravity + a)));
+    CHECK(-forces[0].gap == within(1e-9, 0.1 * (standard_gravity + a) * time_step * time_step / (4.0 / 9.0)));
+}
+
 TEST_CASE("a sphere leaves a plate shaken with more than g where the plate falls faster", "[moving_walls]")
 {
     // −a sin(φ) a phase later: A (2π f)² sin φ = g; from there it flies freely, z = z₀ + v₀ t − g t²/2.

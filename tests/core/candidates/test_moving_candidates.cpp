@@ -192,6 +192,34 @@ TEST_CASE("a wall that creeps nearer is listed once it is within reach", "[candi
     }
 }
 
+TEST_CASE("a wall that turns is searched for by how far it moves where the farthest sphere is, whoever was listed last",
+    "[candidate_search][moving_walls]")
+{
+    // A sheet turns about the z axis. One sphere lies near the axis, where it hardly moves; another is brought out to
+    // fifty diameters, where the sheet makes 0.02 diameters in a step and comes by after 75. Each is listed alone.
+    constexpr double diameter = 2.0 * standard_radius, out = 50.0 * diameter;
+    World world = make_world({}, production_settings(Stabilisation::matched), 1e-4);
+    world.model.gravity.setZero();
+    world.add_wall(make_mesh({Vec3(-1, 0, -1), Vec3(1, 0, -1), Vec3(0, 0, 2)}, {{0, 1, 2}}),
+        {Turning{{}, Vec3::Zero(), Vec3::UnitZ(), 0.02 * diameter / out / world.model.time_step}});
+    world.add_sphere(Vec3(0.05, -2.0 * diameter, 0));
+    world.add_sphere(Vec3(0.05, 2.0 * diameter, 0));
+    Vec3 &first = world.state.position[0], &second = world.state.position[1];
+    std::size_t within = 0;
+    for (int k = 0; k < 80; ++k) {
+        if (k == 10) second = Vec3(out, 2.0 * diameter, 0);
+        if (k == 20) first.z() += 0.5 * diameter;
+        CHECK(world.update_candidates() == (k == 0 ? 2 : k == 10 || k == 20 ? 1 : 0));
+        Box around;
+        for (const Box& box : world.network.list.listed_box) around.extend(box);
+        CHECK(around.contains(world.network.list.listed_around));
+        CHECK(world.network.list.listed_around.contains(around));
+        within = check_walls(world);
+        world.state.time += world.model.time_step;
+    }
+    CHECK(within == 1);
+}
+
 TEST_CASE("a wall that turns back after a sphere was listed alone finds it listed", "[candidate_search][moving_walls]")
 {
     // It goes away by nearly its skin, and then comes by twice as much: it has moved no further than its skin since it

@@ -151,6 +151,19 @@ TEST_CASE("spheres and sieves are read from beside the scene, scaled and then mo
     CHECK(spheres.velocities.empty());
 }
 
+TEST_CASE("the velocities of scaled spheres are scaled too, and not moved", "[scene_file]")
+{
+    const SceneFolder folder;
+    folder.write("s.csv", "x,y,z,radius,vx,vy,vz\n0,0,0,5,10,-20,30\n");
+    const scene::Scene scene = read_scene(folder.write("scene.toml", "[[fill]]\nmaterial = 'a'\narrangement = 'file'\n"
+                                                                     "file = 's.csv'\nscale = 1e-3\n"
+                                                                     "translate = [0, 0, 2]\n"))
+                                   .scene;
+    const scene::SphereList& spheres = scene.fill.at(0).spheres;
+    REQUIRE(spheres.velocities.size() == 1);
+    CHECK(spheres.velocities[0].isApprox(Vec3(0.01, -0.02, 0.03)));
+}
+
 TEST_CASE("a broken file of spheres or sieves is refused at the key that names it", "[scene_file]")
 {
     const SceneFolder folder;
