@@ -117,13 +117,18 @@ bool can_touch(const CandidateList& list, const State& state, const Model& model
     return model.periodicity.apart(a, b).squaredNorm() <= (ra + rb) * (ra + rb);
 }
 
-/// The pairs with at least one member in `movers`, in order.
+/// Whether movers are searched for alone; else all spheres are.
+bool are_few(const std::vector<std::int32_t>& movers, const CandidateList& list)
+{
+    return static_cast<double>(movers.size()) < few * static_cast<double>(list.listed_box.size());
+}
+
+/// The pairs with at least one member in `movers`, or all where these are not few, in order.
 std::vector<IndexPair> pairs_of(
     const std::vector<std::int32_t>& movers, const CandidateList& list, const State& state, const Model& model)
 {
-    const bool alone = static_cast<double>(movers.size()) < few * static_cast<double>(list.listed_box.size());
-    const auto met = alone ? find_box_pairs(list.listed_box, movers, model.periodicity)
-                           : find_box_pairs(list.listed_box, model.periodicity);
+    const auto met = are_few(movers, list) ? find_box_pairs(list.listed_box, movers, model.periodicity)
+                                           : find_box_pairs(list.listed_box, model.periodicity);
     std::vector<std::uint32_t> first(state.count() + 1, 0);
     std::vector<std::uint8_t> serves(met.size());
 #pragma omp parallel for schedule(static) if (met.size() > 10000)
@@ -144,8 +149,7 @@ void search_spheres(CandidateEntries& entries, const CandidateList& list, const 
     const Model& model, const std::vector<std::int32_t>& movers)
 {
     const auto found = pairs_of(movers, list, state, model);
-    const bool all = static_cast<double>(movers.size()) >= few * static_cast<double>(list.listed_box.size());
-    std::vector<std::uint8_t> moves(list.listed_box.size(), all);
+    std::vector<std::uint8_t> moves(list.listed_box.size(), !are_few(movers, list));
     for (const auto i : movers) moves[i] = 1;
     entries.pairs.reserve(list.pairs.size() + found.size());
     auto next = found.begin();
