@@ -25,35 +25,30 @@ struct WallPair {
 
 /// Who may touch whom (a Verlet list), kept until a sphere leaves its listed box.
 ///
-/// Everything is stored by tile: a tile owns the pairs in which one of its spheres comes first, in the order in which
-/// they are swept, and the walls near its spheres. The place of a pair is its *slot*; a wall pair has a slot for each
-/// of its patches.
+/// Pairs stand in tiles: a tile owns those whose first sphere has its listed box in the tile's cell, by the centre, and
+/// the walls near its spheres. A wall pair has a slot for each of its patches.
 struct CandidateList {
-    // Written by update_candidates (candidate_search.hpp):
     std::vector<Box> listed_box; ///< by sphere: as long as it stays inside, its list is complete; empty: not listed yet
     std::vector<Pose> listed_pose; ///< by wall: its list is complete as long as it moves no further than its skin
-    Box listed_around;             ///< box round all listed boxes
+    Box listed_around;             ///< box round all listed boxes; kept where a wall moves
 
-    // Written by lay_down:
+    double tile_edge = 0.0; ///< no listed box was longer than half of this [m]
     Tiles tiles;
-    std::vector<IndexPair> pairs;
-    std::vector<std::uint32_t> pairs_of_tile = {0}; ///< first pair of each tile; tiles + 1
     std::vector<WallPair> wall_pairs;
     std::vector<std::uint32_t> wall_pairs_of_tile = {0}; ///< first wall pair of each tile; tiles + 1
-    std::vector<std::uint32_t> wall_slots_of_tile = {0}; ///< first wall slot of each tile; tiles + 1
     std::vector<std::int32_t> patches;                   ///< by wall slot
 
-    std::size_t size() const { return pairs.size() + wall_pairs.size(); }
+    std::size_t size() const { return tiles.pair_count() + wall_pairs.size(); }
+    TileGrid grid(const Model& model) const { return {tile_edge, model.periodicity, model.contents.min}; }
     void persist(Archive& archive);
 };
 
 inline constexpr std::int32_t not_listed = -1;
 
-/// A pair of spheres, a < b.
-struct PairEntry {
-    IndexPair pair;
-    std::int32_t old = not_listed; ///< its slot in the old list
-    bool opposite = false;         ///< the two spheres have changed places since
+/// Pairs that stand in no tile.
+struct LoosePairs {
+    std::vector<IndexPair> pairs;
+    CarriedImpulses carried; ///< by pair
 };
 
 /// A sphere and a wall near it.
@@ -63,16 +58,21 @@ struct WallEntry {
     std::int32_t old = not_listed; ///< index in the old list
 };
 
-/// A candidate list as it was found.
-struct CandidateEntries {
-    std::vector<PairEntry> pairs; ///< in the order of their spheres
+/// Walls near spheres as they were found.
+struct WallEntries {
     std::vector<WallEntry> walls; ///< in no particular order
     std::vector<std::int32_t> patches;
 };
 
-/// Lays the list down by tile, in the order in which it is swept; what is carried moves with its pairs.
-void lay_down(
-    CandidateList& list, Carried& carried, const CandidateEntries& entries, const State& state, const Model& model);
+/// Takes the pairs that have one of these spheres out of their tiles.
+LoosePairs take_pairs(Tiles& tiles, const std::vector<std::uint8_t>& is_one, bool with_rolling);
+
+/// Tells the tiles which pairs there are besides those that they have, and which walls there are in all. What was
+/// carried goes with its pair.
+/// @param found each once, in no particular order
+/// @param known what some of these carried
+void lay_down(CandidateList& list, Carried& carried, const std::vector<IndexPair>& found, const LoosePairs& known,
+    const WallEntries& walls, const Model& model);
 
 /// Spheres are gone: sphere i is now new_index[i], or gone where that is negative; the others keep their order. The
 /// list stays as it is laid down but for what they were part of. (In candidate_removal.cpp.)

@@ -2,8 +2,6 @@
 #include "core/candidates/candidate_search.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <span>
 
 namespace talus
 {
@@ -13,7 +11,9 @@ namespace
 constexpr double skin = 0.08;         ///< growth of a listed box on each side, in smallest diameters …
 constexpr double skin_per_draw = 0.2; ///< … and this share of what it is drawn out: fast grains stray more
 constexpr double horizon_steps = 20;  ///< steps along its way for which a listed box is drawn out …
-constexpr double longest_draw = 1.0;  ///< … but by this many smallest diameters at most
+constexpr double longest_way = 1.0;   ///< … but with what it needs now by this many smallest diameters at most
+constexpr double tile_diameters =
+    6.0;                            ///< a tile's edge at least, in mean diameters: packs of smaller ones are less full
 constexpr double worn_share = 0.25; ///< a sphere that has used up so much of its skin is searched for along with others
 constexpr double wall_skin = 0.2;   ///< how far a wall may move before it is searched for anew, in smallest diameters
 constexpr double few = 0.3;         ///< share of the spheres up to which they are searched for alone
@@ -36,12 +36,35 @@ Box new_listed_box(const State& state, const Model& model, double h, std::size_t
 {
     const double t = horizon_steps * h;
     Vec3 draw = t * state.motion[i].velocity + 0.5 * t * t * model.gravity;
-    const double longest = longest_draw * model.min_diameter;
-    if (draw.norm() > longest) draw *= longest / draw.norm();
     const Box now = needed_box(state, model, h, i);
+    const double way_now = now.extent().maxCoeff() - 2.0 * needed_radius(state, model, i);
+    const double longest = std::max(0.0, longest_way * model.min_diameter - way_now);
+    if (draw.norm() > longest) draw *= longest / draw.norm();
     return Box(now)
         .extend(Box{now.min + draw, now.max + draw})
         .grown(skin * model.min_diameter + skin_per_draw * draw.norm());
+}
+
+/// A listed box is no longer than this along an axis, but that of a sphere which moves further in a step than spheres
+/// should.
+double usual_box_length(const Model& model)
+{
+    const double way = longest_way * (1.0 + 2.0 * skin_per_draw);
+    return model.max_diameter + (open_contact_reach + 2.0 * skin + way) * model.min_diameter;
+}
+
+/// The edge of the tiles: twice what two boxes that meet can be apart by their centres; for longer ones it is doubled.
+/// It does not become shorter.
+double tile_edge(const CandidateList& list, const Model& model, const std::vector<std::int32_t>& movers)
+{
+    constexpr double rounding = 1.0005;
+    double longest = usual_box_length(model);
+    for (const auto i : movers) longest = std::max(longest, list.listed_box[i].extent().maxCoeff());
+    double edge = list.tile_edge > 0.0
+                      ? list.tile_edge
+                      : std::max(2.0 * rounding * usual_box_length(model), tile_diameters * model.mean_diameter);
+    while (edge < 2.0 * rounding * longest && longest < infinity) edge *= 2.0;
+    return edge;
 }
 
 /// The spheres whose listed box no longer serves; when there are any, those whose skin is nearly used up too.
@@ -67,33 +90,20 @@ std::vector<std::int32_t> spheres_to_search(const CandidateList& list, const Sta
     return result;
 }
 
-/// Where the old list has a pair, for a new one to find what it carried.
-class OldPairs
+/// Where the old list has a wall pair, for a new one to find what it carried.
+class OldWallPairs
 {
 public:
-    OldPairs(const CandidateList& list, std::size_t spheres)
-        : list_(list), first_(spheres + 1, 0), slots_(list.pairs.size()), first_wall_pair_(spheres, not_listed)
+    OldWallPairs(const CandidateList& list, std::size_t spheres) : list_(list), first_(spheres, not_listed)
     {
-        for (const IndexPair& pair : list.pairs) ++first_[pair.a + 1];
-        std::partial_sum(first_.begin(), first_.end(), first_.begin());
-        auto place = first_;
-        for (std::size_t k = 0; k < list.pairs.size(); ++k)
-            slots_[place[list.pairs[k].a]++] = static_cast<std::int32_t>(k);
         for (std::size_t k = list.wall_pairs.size(); k-- > 0;)
-            first_wall_pair_[list.wall_pairs[k].sphere] = static_cast<std::int32_t>(k);
+            first_[list.wall_pairs[k].sphere] = static_cast<std::int32_t>(k);
     }
 
-    /// The slots of the pairs whose first sphere is i, in the order of their second.
-    std::span<const std::int32_t> of(std::size_t i) const
+    std::int32_t find(std::int32_t sphere, std::int32_t wall) const
     {
-        return {slots_.data() + first_[i], slots_.data() + first_[i + 1]};
-    }
-
-    std::int32_t find_wall(std::int32_t sphere, std::int32_t wall) const
-    {
-        const auto first = first_wall_pair_[sphere];
-        if (first == not_listed) return not_listed;
-        for (auto k = static_cast<std::size_t>(first); k < list_.wall_pairs.size(); ++k) {
+        if (first_[sphere] == not_listed) return not_listed;
+        for (auto k = static_cast<std::size_t>(first_[sphere]); k < list_.wall_pairs.size(); ++k) {
             if (list_.wall_pairs[k].sphere != sphere) break;
             if (list_.wall_pairs[k].wall == wall) return static_cast<std::int32_t>(k);
         }
@@ -102,9 +112,7 @@ public:
 
 private:
     const CandidateList& list_;
-    std::vector<std::uint32_t> first_;          ///< by sphere: its pairs in slots_; spheres + 1
-    std::vector<std::int32_t> slots_;           ///< by the first sphere of their pair
-    std::vector<std::int32_t> first_wall_pair_; ///< by sphere
+    std::vector<std::int32_t> first_; ///< by sphere
 };
 
 /// Whether two spheres can come within reach of each other while each stays inside its listed box.
@@ -123,48 +131,22 @@ bool are_few(const std::vector<std::int32_t>& movers, const CandidateList& list)
     return static_cast<double>(movers.size()) < few * static_cast<double>(list.listed_box.size());
 }
 
-/// The pairs with at least one member in `movers`, or all where these are not few, in order.
+/// The pairs with at least one member in `movers`, or all where these are not few.
 std::vector<IndexPair> pairs_of(
     const std::vector<std::int32_t>& movers, const CandidateList& list, const State& state, const Model& model)
 {
-    const auto met = are_few(movers, list) ? find_box_pairs(list.listed_box, movers, model.periodicity)
-                                           : find_box_pairs(list.listed_box, model.periodicity);
-    std::vector<std::uint32_t> first(state.count() + 1, 0);
+    auto met = are_few(movers, list) ? find_box_pairs(list.listed_box, movers, model.periodicity)
+                                     : find_box_pairs(list.listed_box, model.periodicity);
     std::vector<std::uint8_t> serves(met.size());
 #pragma omp parallel for schedule(static) if (met.size() > 10000)
     for (std::size_t k = 0; k < met.size(); ++k) serves[k] = can_touch(list, state, model, met[k]);
-    for (std::size_t k = 0; k < met.size(); ++k)
-        if (serves[k]) ++first[static_cast<std::size_t>(met[k].a) + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<IndexPair> sorted(first.back());
-    auto place = first;
-    for (std::size_t k = 0; k < met.size(); ++k)
-        if (serves[k]) sorted[place[static_cast<std::size_t>(met[k].a)]++] = met[k];
-    for (std::size_t i = 0; i < state.count(); ++i) std::sort(sorted.begin() + first[i], sorted.begin() + first[i + 1]);
-    return sorted;
-}
-
-/// New pairs of movers, and the old ones of all others. Both come in the order of their spheres.
-void search_spheres(CandidateEntries& entries, const CandidateList& list, const OldPairs& old, const State& state,
-    const Model& model, const std::vector<std::int32_t>& movers)
-{
-    const auto found = pairs_of(movers, list, state, model);
-    std::vector<std::uint8_t> moves(list.listed_box.size(), !are_few(movers, list));
-    for (const auto i : movers) moves[i] = 1;
-    entries.pairs.reserve(list.pairs.size() + found.size());
-    auto next = found.begin();
-    for (std::size_t i = 0; i < state.count(); ++i) {
-        const auto sphere = static_cast<std::int32_t>(i);
-        for (const std::int32_t slot : old.of(i)) {
-            const IndexPair& pair = list.pairs[static_cast<std::size_t>(slot)];
-            for (; next != found.end() && *next < pair; ++next) entries.pairs.push_back({*next});
-            if (next != found.end() && *next == pair)
-                entries.pairs.push_back({*next++, slot});
-            else if (!moves[i] && !moves[pair.b])
-                entries.pairs.push_back({pair, slot});
-        }
-        for (; next != found.end() && next->a == sphere; ++next) entries.pairs.push_back({*next});
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < met.size(); ++k) {
+        met[kept] = met[k];
+        kept += serves[k];
     }
+    met.resize(kept);
+    return met;
 }
 
 /// The walls that have moved so far since they were listed, or will in this step, that their lists may miss a sphere.
@@ -184,14 +166,18 @@ std::vector<std::uint8_t> walls_to_search(
     return stale;
 }
 
-/// Who lies near which wall, written into the entries sphere by sphere.
+constexpr std::size_t searched_at_once = 1024; ///< spheres that a thread searches walls for
+
+/// Who lies near which wall.
 class WallSearch
 {
 public:
-    WallSearch(CandidateEntries& entries, const CandidateList& list, const OldPairs& old, const Model& model, double h,
-        const std::vector<PlacedWall>& walls)
-        : entries_(entries), list_(list), old_(old), walls_(walls)
+    WallSearch(const CandidateList& list, const Model& model, double h, const std::vector<PlacedWall>& walls,
+        const std::vector<std::int32_t>& movers, const std::vector<std::uint8_t>& stale)
+        : list_(list), old_(list, list.listed_box.size()), walls_(walls), movers_(movers), stale_(stale),
+          moves_(list.listed_box.size(), 0)
     {
+        for (const auto i : movers) moves_[static_cast<std::size_t>(i)] = 1;
         // A wall does not come half of the way, as another sphere does.
         const double reach = 0.5 * open_contact_reach * model.min_diameter;
         for (const auto& wall : walls) {
@@ -201,47 +187,78 @@ public:
         }
     }
 
-    void search(std::int32_t sphere, std::size_t wall)
+    /// All walls near movers, stale ones near all spheres, and what the old list knows of the others.
+    WallEntries search() const
     {
-        const auto first = static_cast<std::uint32_t>(entries_.patches.size());
-        walls_[wall].patches_near(list_.listed_box[sphere].grown(margin_[wall]), entries_.patches);
-        const auto patches = static_cast<std::uint32_t>(entries_.patches.size()) - first;
-        const auto w = static_cast<std::int32_t>(wall);
-        if (patches > 0) entries_.walls.push_back({sphere, w, first, patches, old_.find_wall(sphere, w)});
-    }
-
-    void keep(std::size_t old_pair)
-    {
-        const auto& old = list_.wall_pairs[old_pair];
-        const auto first = static_cast<std::uint32_t>(entries_.patches.size());
-        for (std::uint32_t p = 0; p < old.patches; ++p) entries_.patches.push_back(list_.patches[old.first + p]);
-        entries_.walls.push_back({old.sphere, old.wall, first, old.patches, static_cast<std::int32_t>(old_pair)});
+        const bool any_stale = std::ranges::find(stale_, 1) != stale_.end();
+        const std::size_t spheres = any_stale ? list_.listed_box.size() : movers_.size();
+        std::vector<WallEntries> found((spheres + searched_at_once - 1) / searched_at_once);
+#pragma omp parallel for schedule(dynamic) if (found.size() > 1)
+        for (std::size_t part = 0; part < found.size(); ++part)
+            for (std::size_t k = part * searched_at_once; k < std::min(spheres, (part + 1) * searched_at_once); ++k)
+                search_around(any_stale ? static_cast<std::int32_t>(k) : movers_[k], found[part]);
+        WallEntries all;
+        for (const WallEntries& part : found)
+            for (const WallEntry& e : part.walls) append(e, part.patches, all);
+        for (std::size_t k = 0; k < list_.wall_pairs.size(); ++k) {
+            const WallPair& old = list_.wall_pairs[k];
+            if (moves_[static_cast<std::size_t>(old.sphere)] || stale_[static_cast<std::size_t>(old.wall)]) continue;
+            append({old.sphere, old.wall, old.first, old.patches, static_cast<std::int32_t>(k)}, list_.patches, all);
+        }
+        return all;
     }
 
 private:
-    CandidateEntries& entries_;
     const CandidateList& list_;
-    const OldPairs& old_;
+    const OldWallPairs old_;
     const std::vector<PlacedWall>& walls_;
-    std::vector<double> margin_; ///< by wall [m]
+    const std::vector<std::int32_t>& movers_;
+    const std::vector<std::uint8_t>& stale_;
+    std::vector<std::uint8_t> moves_; ///< by sphere
+    std::vector<double> margin_;      ///< by wall [m]
+
+    void search_around(std::int32_t sphere, WallEntries& entries) const
+    {
+        for (std::size_t w = 0; w < walls_.size(); ++w) {
+            if (!moves_[static_cast<std::size_t>(sphere)] && !stale_[w]) continue;
+            const auto first = static_cast<std::uint32_t>(entries.patches.size());
+            walls_[w].patches_near(
+                list_.listed_box[static_cast<std::size_t>(sphere)].grown(margin_[w]), entries.patches);
+            const auto patches = static_cast<std::uint32_t>(entries.patches.size()) - first;
+            const auto wall = static_cast<std::int32_t>(w);
+            if (patches > 0) entries.walls.push_back({sphere, wall, first, patches, old_.find(sphere, wall)});
+        }
+    }
+
+    static void append(WallEntry entry, const std::vector<std::int32_t>& patches, WallEntries& to)
+    {
+        const auto first = patches.begin() + entry.first;
+        entry.first = static_cast<std::uint32_t>(to.patches.size());
+        to.patches.insert(to.patches.end(), first, first + entry.patches);
+        to.walls.push_back(entry);
+    }
 };
 
-void search_walls(CandidateEntries& entries, const CandidateList& list, const OldPairs& old, const Model& model,
-    double h, const std::vector<PlacedWall>& walls, const std::vector<std::int32_t>& movers,
-    const std::vector<std::uint8_t>& stale)
+/// Brings the pairs up to date where these spheres have new boxes.
+void list_anew(CandidateList& list, Carried& carried, const State& state, const Model& model,
+    const std::vector<std::int32_t>& movers, const WallEntries& walls)
 {
-    const auto spheres = static_cast<std::int32_t>(list.listed_box.size());
-    std::vector<std::uint8_t> moves(list.listed_box.size(), 0);
-    for (const auto i : movers) moves[i] = 1;
-    WallSearch near(entries, list, old, model, h, walls);
-    for (std::size_t w = 0; w < walls.size(); ++w) {
-        if (stale[w])
-            for (std::int32_t i = 0; i < spheres; ++i) near.search(i, w);
-        else
-            for (const auto i : movers) near.search(i, w);
+    std::vector<std::uint8_t> moves(state.count(), !are_few(movers, list));
+    for (const auto i : movers) moves[static_cast<std::size_t>(i)] = 1;
+    auto found = pairs_of(movers, list, state, model);
+    const double edge = tile_edge(list, model, movers);
+    if (edge == list.tile_edge) {
+        lay_down(list, carried, found, take_pairs(list.tiles, moves, model.physics.rolling), walls, model);
+        return;
     }
-    for (std::size_t k = 0; k < list.wall_pairs.size(); ++k)
-        if (!moves[list.wall_pairs[k].sphere] && !stale[list.wall_pairs[k].wall]) near.keep(k);
+    // All pairs go to other tiles.
+    list.tile_edge = edge;
+    const std::vector<std::uint8_t> all(state.count(), 1);
+    const LoosePairs taken = take_pairs(list.tiles, all, model.physics.rolling);
+    for (const IndexPair& pair : taken.pairs)
+        if (!moves[static_cast<std::size_t>(pair.a)] && !moves[static_cast<std::size_t>(pair.b)]) found.push_back(pair);
+    list.tiles = {};
+    lay_down(list, carried, found, taken, walls, model);
 }
 
 } // namespace
@@ -254,18 +271,20 @@ std::size_t update_candidates(CandidateList& list, Carried& carried, const State
     const auto stale = walls_to_search(list, model, h, walls);
     const bool any_stale = std::find(stale.begin(), stale.end(), 1) != stale.end();
     if (movers.empty() && !any_stale) return 0;
-    for (const auto i : movers) list.listed_box[i] = new_listed_box(state, model, h, i);
-    list.listed_around = Box{};
-    for (const Box& box : list.listed_box) list.listed_around.extend(box);
-
-    CandidateEntries entries;
-    const OldPairs old(list, state.count());
-    search_spheres(entries, list, old, state, model, movers);
-    search_walls(entries, list, old, model, h, walls, movers, stale);
+#pragma omp parallel for schedule(static) if (movers.size() > 1000)
+    for (std::size_t k = 0; k < movers.size(); ++k) {
+        const auto i = static_cast<std::size_t>(movers[k]);
+        list.listed_box[i] = new_listed_box(state, model, h, i);
+    }
+    if (std::ranges::any_of(walls, [](const PlacedWall& wall) { return wall.moves(); })) {
+        list.listed_around = Box{};
+        for (const Box& box : list.listed_box) list.listed_around.extend(box);
+    }
+    const WallEntries near_walls = WallSearch(list, model, h, walls, movers, stale).search();
     list.listed_pose.resize(walls.size());
     for (std::size_t w = 0; w < walls.size(); ++w)
         if (stale[w]) list.listed_pose[w] = walls[w].pose();
-    lay_down(list, carried, entries, state, model);
+    list_anew(list, carried, state, model, movers, near_walls);
     return movers.size();
 }
 
@@ -276,21 +295,23 @@ void renumber_candidates(CandidateList& list, Carried& carried, const State& sta
     for (std::size_t i = 0; i < list.listed_box.size(); ++i) listed_box[new_index[i]] = list.listed_box[i];
     list.listed_box = std::move(listed_box);
 
-    CandidateEntries entries;
-    for (std::size_t k = 0; k < list.pairs.size(); ++k) {
-        const IndexPair moved{new_index[list.pairs[k].a], new_index[list.pairs[k].b]};
-        const bool opposite = moved.a > moved.b;
-        entries.pairs.push_back(
-            {opposite ? IndexPair{moved.b, moved.a} : moved, static_cast<std::int32_t>(k), opposite});
+    const std::vector<std::uint8_t> all(state.count(), 1);
+    LoosePairs pairs = take_pairs(list.tiles, all, model.physics.rolling);
+    for (std::size_t k = 0; k < pairs.pairs.size(); ++k) {
+        IndexPair& pair = pairs.pairs[k];
+        pair = {new_index[static_cast<std::size_t>(pair.a)], new_index[static_cast<std::size_t>(pair.b)]};
+        if (pair.a < pair.b) continue;
+        std::swap(pair.a, pair.b);
+        pairs.carried.copy(k, pairs.carried, k, true);
     }
-    std::ranges::sort(entries.pairs, {}, &PairEntry::pair);
+    WallEntries walls{{}, list.patches};
     for (std::size_t k = 0; k < list.wall_pairs.size(); ++k) {
         const auto& pair = list.wall_pairs[k];
-        entries.walls.push_back(
+        walls.walls.push_back(
             {new_index[pair.sphere], pair.wall, pair.first, pair.patches, static_cast<std::int32_t>(k)});
     }
-    entries.patches = list.patches;
-    lay_down(list, carried, entries, state, model);
+    list.tiles = {};
+    lay_down(list, carried, pairs.pairs, pairs, walls, model);
 }
 
 } // namespace talus

@@ -15,10 +15,16 @@ void CarriedImpulses::scale(double factor)
     for (Vec3& p : rolling_impulse) p *= factor;
 }
 
-void CarriedImpulses::shrink(std::size_t slots)
+void CarriedImpulses::resize(std::size_t slots, bool with_rolling)
 {
     contact.resize(slots);
-    if (!rolling_impulse.empty()) rolling_impulse.resize(slots);
+    if (with_rolling) rolling_impulse.resize(slots, Vec3::Zero());
+}
+
+void CarriedImpulses::append(const CarriedImpulses& more)
+{
+    contact.insert(contact.end(), more.contact.begin(), more.contact.end());
+    rolling_impulse.insert(rolling_impulse.end(), more.rolling_impulse.begin(), more.rolling_impulse.end());
 }
 
 void CarriedImpulses::copy(std::size_t slot, const CarriedImpulses& from, std::size_t from_slot, bool opposite)
@@ -27,16 +33,6 @@ void CarriedImpulses::copy(std::size_t slot, const CarriedImpulses& from, std::s
     contact[slot] = from.contact[from_slot];
     contact[slot].impulse *= sign;
     if (!rolling_impulse.empty()) rolling_impulse[slot] = sign * from.rolling_impulse[from_slot];
-}
-
-double Carried::scale_to(double step)
-{
-    const double factor = impulse_step < infinity ? step / impulse_step : 1.0;
-    impulse_step = step;
-    if (factor == 1.0) return factor;
-    pairs.scale(factor);
-    walls.scale(factor);
-    return factor;
 }
 
 } // namespace talus

@@ -84,21 +84,20 @@ struct CarriedImpulses {
     CarriedImpulses() = default;
     CarriedImpulses(std::size_t slots, bool with_rolling);
     void persist(Archive& archive) { archive(contact, rolling_impulse); }
-    void scale(double factor);      ///< all of them
-    void shrink(std::size_t slots); ///< the first ones remain
+    void scale(double factor); ///< all of them
+    /// The first ones remain; new ones are empty.
+    void resize(std::size_t slots, bool with_rolling);
+    void append(const CarriedImpulses& more);
     void copy(std::size_t slot, const CarriedImpulses& from, std::size_t from_slot, bool opposite = false);
 };
 
-/// All that contacts hand on.
+/// What contacts with walls hand on, and for how long all impulses have acted. (Those of spheres stand in their tiles.)
 struct Carried {
-    CarriedImpulses pairs;          ///< by pair of the candidate list
     CarriedImpulses walls;          ///< by wall slot of the candidate list
     std::vector<Vec3> wall_normal;  ///< by wall slot: the normal by which the next step knows a wall contact again
     double impulse_step = infinity; ///< for how long the impulses have acted [s]; infinite before the first step
 
-    void persist(Archive& archive) { archive(pairs, walls, wall_normal, impulse_step); }
-    /// Impulses go with the length of the step: those of a step of another length are scaled. Returns by how much.
-    double scale_to(double step);
+    void persist(Archive& archive) { archive(walls, wall_normal, impulse_step); }
 };
 
 } // namespace talus

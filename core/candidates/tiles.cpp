@@ -3,94 +3,84 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 namespace talus
 {
-namespace
-{
 
-constexpr int bits = 20; ///< of a tile index along one axis, in the sorting key
-
-/// The tile edge, doubled until the tiles along each axis can be counted in the key.
-double countable_edge(double edge, const Vec3& extent)
+TileGrid::TileGrid(double edge, const Periodicity& periodicity, const Vec3& corner)
 {
-    while (extent.maxCoeff() / edge > (1 << bits) - 4) edge *= 2.0;
-    return edge;
+    for (int d = 0; d < 3; ++d) {
+        Axis& axis = axes_[static_cast<std::size_t>(d)];
+        axis = {corner[d], edge, 0};
+        if (!periodicity.along(d)) continue;
+        const double pairs = std::min(std::floor(0.5 * periodicity.length[d] / edge), std::ldexp(0.5, bits));
+        axis.period = std::max<std::int64_t>(1, 2 * static_cast<std::int64_t>(pairs));
+        axis.origin = periodicity.origin[d];
+        axis.edge = periodicity.length[d] / static_cast<double>(axis.period);
+    }
 }
 
-/// How the tiles lie along each axis.
-class TileAxes
+std::int64_t TileGrid::Axis::index(double x) const
 {
-public:
-    TileAxes(const Box& around, double edge, const Periodicity& periodicity, const Vec3& corner)
-    {
-        const double common = countable_edge(edge, around.extent());
-        for (int d = 0; d < 3; ++d) {
-            origin_[d] = corner[d];
-            edge_[d] = common;
-            if (periodicity.along(d)) {
-                const auto pairs = static_cast<std::int64_t>(0.5 * periodicity.length[d] / common);
-                last_[d] = std::max<std::int64_t>(1, 2 * pairs) - 1;
-                origin_[d] = periodicity.origin[d];
-                edge_[d] = periodicity.length[d] / static_cast<double>(last_[d] + 1);
-                first_[d] = 0;
-            }
-            lowest_[d] = index(around.min, d);
-        }
-    }
+    constexpr double middle = 1 << (bits - 1);
+    const double along = std::floor((x - origin) / edge);
+    if (period == 0) return static_cast<std::int64_t>(std::clamp(along + middle, 0.0, 2.0 * middle - 1.0));
+    const auto turns = static_cast<double>(period);
+    return std::min(static_cast<std::int64_t>(along - turns * std::floor(along / turns)), period - 1);
+}
 
-    std::int64_t index(const Vec3& x, int d) const
-    {
-        const auto k = static_cast<std::int64_t>(std::floor((x[d] - origin_[d]) / edge_[d]));
-        return std::clamp(k, first_[d], last_[d]);
-    }
-
-    std::int64_t lowest(int d) const { return lowest_[d]; }
-
-private:
-    static constexpr std::int64_t endless = std::numeric_limits<std::int64_t>::max();
-
-    double origin_[3], edge_[3];
-    std::int64_t first_[3] = {-endless, -endless, -endless}, last_[3] = {endless, endless, endless}, lowest_[3];
-};
-
-} // namespace
-
-Tiles make_tiles(const std::vector<Vec3>& position, double edge, const Periodicity& periodicity, const Vec3& corner)
+std::uint64_t TileGrid::cell(const Vec3& place) const
 {
-    Tiles tiles;
-    if (position.empty()) return tiles;
-    Box around;
-    for (const auto& x : position) around.extend(x);
-    const TileAxes axes(around, edge, periodicity, corner);
-
-    // Key: colour first, then the tile's place, so that sorting lines up tiles by colour.
-    std::vector<std::pair<std::uint64_t, std::int32_t>> keys(position.size());
-    for (std::size_t i = 0; i < position.size(); ++i) {
-        std::uint64_t color = 0;
-        std::uint64_t place = 0;
-        for (std::size_t d = 3; d-- > 0;) {
-            const auto index = axes.index(position[i], static_cast<int>(d));
-            color = 2 * color + static_cast<std::uint64_t>(index & 1);
-            place = (place << bits) + static_cast<std::uint64_t>(index - axes.lowest(static_cast<int>(d)));
-        }
-        keys[i] = {(color << (3 * bits)) + place, static_cast<std::int32_t>(i)};
+    std::uint64_t color = 0, at = 0;
+    for (std::size_t d = 3; d-- > 0;) {
+        const auto index = static_cast<std::uint64_t>(axes_[d].index(place[static_cast<int>(d)]));
+        color = 2 * color + (index & 1U);
+        at = (at << bits) + index;
     }
-    std::sort(keys.begin(), keys.end());
+    return (color << (3 * bits)) + at;
+}
 
-    tiles.spheres.reserve(keys.size());
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-        if (k > 0 && keys[k].first != keys[k - 1].first) {
-            tiles.first.push_back(static_cast<std::uint32_t>(k));
-        }
-        tiles.spheres.push_back(keys[k].second);
-    }
-    tiles.first.push_back(static_cast<std::uint32_t>(keys.size()));
+std::int32_t Tiles::of_cell(std::uint64_t cell) const
+{
+    const auto found = std::lower_bound(cells.begin(), cells.end(), cell);
+    return found != cells.end() && *found == cell ? static_cast<std::int32_t>(found - cells.begin()) : -1;
+}
 
-    for (std::size_t t = 0; t < tiles.count(); ++t) ++tiles.color_first[(keys[tiles.first[t]].first >> (3 * bits)) + 1];
-    for (std::size_t c = 0; c < Tiles::colors; ++c) tiles.color_first[c + 1] += tiles.color_first[c];
-    return tiles;
+void Tiles::open(std::vector<std::uint64_t> needed)
+{
+    if (std::ranges::none_of(needed, [&](std::uint64_t cell) { return of_cell(cell) < 0; })) return;
+    for (std::size_t t = 0; t < count(); ++t)
+        if (!tiles[t].pairs.empty()) needed.push_back(cells[t]);
+    std::sort(needed.begin(), needed.end());
+    needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+    std::vector<Tile> opened(needed.size());
+    for (std::size_t t = 0; t < needed.size(); ++t)
+        if (const auto old = of_cell(needed[t]); old >= 0) opened[t] = std::move(tiles[static_cast<std::size_t>(old)]);
+    tiles = std::move(opened);
+    cells = std::move(needed);
+    color_first = {};
+    for (const std::uint64_t cell : cells) ++color_first[TileGrid::color(cell) + 1];
+    std::partial_sum(color_first.begin(), color_first.end(), color_first.begin());
+}
+
+std::size_t Tiles::pair_count() const
+{
+    std::size_t pairs = 0;
+    for (const Tile& tile : tiles) pairs += tile.pairs.size();
+    return pairs;
+}
+
+SortedByTile::SortedByTile(const std::vector<std::int32_t>& tile, std::size_t tiles) : first_(tiles + 1, 0)
+{
+    for (const std::int32_t t : tile)
+        if (t >= 0) ++first_[static_cast<std::size_t>(t) + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    places_.resize(first_.back());
+    auto next = first_;
+    for (std::size_t place = 0; place < tile.size(); ++place)
+        if (tile[place] >= 0)
+            places_[next[static_cast<std::size_t>(tile[place])]++] = static_cast<std::uint32_t>(place);
 }
 
 } // namespace talus

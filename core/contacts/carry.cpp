@@ -159,7 +159,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
         const auto tile = static_cast<std::size_t>(t);
         auto& outcome = outcomes[tile];
         TileContacts& walls = contacts.walls[tile];
-        outcome = carry_between_spheres(contacts.spheres[tile], network.carried.pairs, gauge);
+        outcome = carry_between_spheres(contacts.spheres[tile], network.list.tiles.tiles[tile].carried, gauge);
         outcome += carry_at_walls(walls, network.carried.walls, gauge);
         if (walls.has_moving_walls())
             for (const std::size_t k : walls.indices()) {

@@ -42,43 +42,43 @@ SphereAssembly::SphereAssembly(
     for (std::size_t i = 0; i < state.count(); ++i) balls[i] = reach_ball(state, i, step);
     spheres_ = {balls.data(), reinterpret_cast<const double*>(state.motion.data()), state.material.data(),
         static_cast<std::int32_t>(model.materials.list.size()),
-        reinterpret_cast<const double*>(model.materials.laws.data()),
-        reinterpret_cast<const double*>(network.carried.pairs.contact.data())};
+        reinterpret_cast<const double*>(model.materials.laws.data()), nullptr};
 }
 
 ContactSurvey SphereAssembly::assemble(std::size_t tile)
 {
-    place(tile);
-    return make(network_.contacts.spheres[tile]);
+    const Tile& own = network_.list.tiles.tiles[tile];
+    TileContacts& contacts = network_.contacts.spheres[tile];
+    SphereNumbers spheres = spheres_;
+    spheres.carried = reinterpret_cast<const double*>(own.carried.contact.data());
+    place(own, spheres, contacts);
+    return make(own, spheres, contacts);
 }
 
 /// Those whose balls meet, and those that are loaded: these have something to forget.
-void SphereAssembly::place(std::size_t tile)
+void SphereAssembly::place(const Tile& tile, const SphereNumbers& spheres, TileContacts& contacts)
 {
-    const CandidateList& list = network_.list;
-    TileContacts& contacts = network_.contacts.spheres[tile];
     AssemblyRoom& room = network_.contacts.room();
-    const auto first = list.pairs_of_tile[tile], last = list.pairs_of_tile[tile + 1];
-    room.near.resize(std::max<std::size_t>(room.near.size(), last - first + 1));
-    const std::size_t count = kernel_.find_near(
-        reinterpret_cast<const std::int32_t*>(list.pairs.data()), spheres_, first, last, step_, room.near.data());
+    room.near.resize(std::max<std::size_t>(room.near.size(), tile.pairs.size() + 1));
+    const std::size_t count = kernel_.find_near(reinterpret_cast<const std::int32_t*>(tile.pairs.data()),
+        static_cast<std::uint32_t>(tile.pairs.size()), spheres, step_, room.near.data());
     room.filler.begin(contacts, state_.count());
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t slot = room.near[i];
-        const auto [a, b] = list.pairs[slot];
+        const auto [a, b] = tile.pairs[slot];
         contacts.place_pair(room.filler.place(a, b), a, b, slot);
     }
 }
 
-ContactSurvey SphereAssembly::make(TileContacts& contacts)
+ContactSurvey SphereAssembly::make(const Tile& tile, const SphereNumbers& spheres, TileContacts& contacts)
 {
     ContactSurvey survey;
     TouchSums sums;
     for (std::size_t p = 0; p < contacts.packs(); ++p) {
         ContactPack& pack = contacts.pack(p);
         RecordPack& record = contacts.record(p);
-        const TouchMarks marks = kernel_.touch_spheres(pack, record, sums, spheres_, step_);
-        if (contacts.has_rolling()) make_rolling(contacts, p);
+        const TouchMarks marks = kernel_.touch_spheres(pack, record, sums, spheres, step_);
+        if (contacts.has_rolling()) make_rolling(tile, contacts, p);
         survey.count += static_cast<std::size_t>(std::popcount(record.in_problem));
         survey.impacts += static_cast<std::size_t>(std::popcount(marks.impact));
         if (!step_.restitution) continue; // nothing is struck
@@ -94,7 +94,7 @@ ContactSurvey SphereAssembly::make(TileContacts& contacts)
     return survey;
 }
 
-void SphereAssembly::make_rolling(TileContacts& contacts, std::size_t p) const
+void SphereAssembly::make_rolling(const Tile& tile, TileContacts& contacts, std::size_t p) const
 {
     for (std::size_t lane = 0; lane < pack_size; ++lane) {
         const std::size_t k = pack_size * p + lane;
@@ -106,7 +106,7 @@ void SphereAssembly::make_rolling(TileContacts& contacts, std::size_t p) const
         const double radius = a.radius * b.radius / (a.radius + b.radius);
         const auto& law = model_.materials.between(state_.material[contacts.a(k)], state_.material[contacts.b(k)]);
         contacts.set_rolling(k, rolling_row(contacts, k, law, radius, inverse_inertia(a) + inverse_inertia(b),
-                                    network_.carried.pairs.rolling_impulse[contacts.record(p).slot[lane]]));
+                                    tile.carried.rolling_impulse[contacts.record(p).slot[lane]]));
     }
 }
 

@@ -25,11 +25,11 @@ private:
     const Model& model_;
     const StepConstants& step_;
     const TouchKernel& kernel_ = fastest_kernels().touch;
-    SphereNumbers spheres_;
+    SphereNumbers spheres_; ///< without what their contacts carry
 
-    void place(std::size_t tile);
-    ContactSurvey make(TileContacts& contacts);
-    void make_rolling(TileContacts& contacts, std::size_t p) const;
+    void place(const Tile& tile, const SphereNumbers& spheres, TileContacts& contacts);
+    ContactSurvey make(const Tile& tile, const SphereNumbers& spheres, TileContacts& contacts);
+    void make_rolling(const Tile& tile, TileContacts& contacts, std::size_t p) const;
 };
 
 } // namespace talus

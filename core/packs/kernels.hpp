@@ -35,10 +35,10 @@ struct SweepKernel {
 
 /// What makes contacts of touches.
 struct TouchKernel {
-    /// Lists the candidates from `first` on, before `last`, whose balls meet or that were loaded. Returns how many.
+    /// Lists the candidates whose balls meet or that were loaded. Returns how many.
     /// @param pairs of spheres, by candidate, which is their slot; @param near has room for all and one more
-    std::size_t (*find_near)(const std::int32_t* pairs, const SphereNumbers& spheres, std::uint32_t first,
-        std::uint32_t last, const StepConstants& step, std::uint32_t* near) = nullptr;
+    std::size_t (*find_near)(const std::int32_t* pairs, std::uint32_t candidates, const SphereNumbers& spheres,
+        const StepConstants& step, std::uint32_t* near) = nullptr;
     /// Finds how the spheres a and b of a pack lie to each other, and makes their contacts with what their slots carry.
     /// A lane whose spheres do not touch is left out of the problem, and has nothing to hand on.
     TouchMarks (*touch_spheres)(ContactPack& contact, RecordPack& record, TouchSums& sums, const SphereNumbers& spheres,

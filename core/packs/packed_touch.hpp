@@ -68,14 +68,14 @@ template <int width>
 }
 
 template <int width>
-std::size_t find_near(const std::int32_t* pairs, const SphereNumbers& spheres, std::uint32_t first, std::uint32_t last,
+std::size_t find_near(const std::int32_t* pairs, std::uint32_t candidates, const SphereNumbers& spheres,
     const StepConstants& step, std::uint32_t* near)
 {
     constexpr std::size_t carried_size = 32, touch_byte = 28; // CarriedContact
     const auto* const touch = reinterpret_cast<const std::uint8_t*>(spheres.carried) + touch_byte;
     std::size_t count = 0;
-    for (std::uint32_t k = first; k < last; k += width) {
-        const int pairs_left = last - k < width ? static_cast<int>(last - k) : width;
+    for (std::uint32_t k = 0; k < candidates; k += width) {
+        const int pairs_left = candidates - k < width ? static_cast<int>(candidates - k) : width;
         std::int32_t a[width], b[width];
         for (int lane = 0; lane < width; ++lane) {
             const std::uint32_t pair = lane < pairs_left ? k + static_cast<std::uint32_t>(lane) : k;

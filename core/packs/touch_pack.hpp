@@ -51,14 +51,14 @@ struct ReachBall {
     double radius;
 };
 
-/// What is known of all spheres and of what their contacts carry, as plain numbers.
+/// What is known of all spheres, and of what the contacts of a tile carry, as plain numbers.
 struct SphereNumbers {
     const ReachBall* balls;       ///< by sphere, with the centres that they have now
     const double* motion;         ///< 8 for each sphere: v, 1/m, a, r
     const std::int32_t* material; ///< by sphere
     std::int32_t materials;       ///< how many there are
     const double* laws;           ///< 4 for each pair of materials: μ, e, μ_r, k
-    const double* carried;        ///< 4 for each slot: those of CarriedContact
+    const double* carried;        ///< 4 for each slot of the tile: those of CarriedContact
 };
 
 /// What a tile's touches of spheres add up to, each lane by itself, so that sums do not depend on the instruction set.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -62,15 +63,33 @@ struct PartialSums {
 
     explicit PartialSums(std::size_t tiles) : of_tile(tiles) {}
 
-    /// Added up in tile order, so that it has the same bits whichever thread made which part.
     /// @param relaxation ω of the sweep: tiles change by ω times what their contacts ask for; pistons are not relaxed
     SweepSums total(double relaxation) const
     {
-        SweepSums sum;
-        for (const auto& part : of_tile) sum += part;
+        SweepSums sum{added_up(&SweepSums::change), added_up(&SweepSums::size)};
         sum.change /= relaxation * relaxation;
         sum += of_pistons;
         return sum;
+    }
+
+private:
+    /// Added up as whole numbers of a small unit: so the bits do not depend on the order of the tiles.
+    double added_up(double SweepSums::*which) const
+    {
+        double largest = 0.0;
+        for (const SweepSums& part : of_tile) largest = part.*which > largest ? part.*which : largest;
+        int exponent = 0, tiles = 0;
+        std::frexp(largest, &exponent);
+        std::frexp(static_cast<double>(of_tile.size()), &tiles);
+        if (!(largest < infinity) || largest == 0.0) return largest;
+        const double per_unit = std::ldexp(1.0, std::min(62 - tiles - exponent, 1000));
+        std::int64_t units = 0;
+        bool finite = true;
+        for (const SweepSums& part : of_tile) {
+            finite = finite && part.*which == part.*which;
+            units += finite ? static_cast<std::int64_t>(part.*which * per_unit) : 0;
+        }
+        return finite ? static_cast<double>(units) / per_unit : std::numeric_limits<double>::quiet_NaN();
     }
 };
 

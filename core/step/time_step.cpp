@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace talus
 {
@@ -19,30 +20,40 @@ namespace
 
 constexpr std::int64_t audit_interval = 16;         ///< steps; gains of contacts are looked for in one of so many
 constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
+constexpr std::size_t few_spheres = 1000;           ///< that one thread takes faster than several
 
 /// Brings the spheres into the order of a space-filling curve now and then, for the sake of the cache.
 void renumber_along_curve(State& state, ContactNetwork& network, const Model& model)
 {
     if (state.steps % renumbering_interval != 0 || state.count() < 2) return;
     network.list.listed_box.resize(state.count());
-    const auto order = curve_order(state.position);
+    std::vector<std::uint64_t> key(state.count());
+#pragma omp parallel for schedule(static) if (state.count() > few_spheres)
+    for (std::size_t i = 0; i < state.count(); ++i)
+        key[i] = curve_key(state.position[i], model.contents.min, model.max_diameter);
+    const auto order = curve_order(key, state.id);
     renumber_spheres(state, order, state.count());
     renumber_candidates(network.list, network.carried, state, model, order);
 }
 
-/// The carried impulses of contacts and guides for a step of this length. Returns by how much they were scaled.
-double scale_impulses(State& state, Carried& carried, double h)
+/// The carried impulses of contacts and guides for a step of this length: impulses go with it. Returns by how much they
+/// were scaled.
+double scale_impulses(State& state, ContactNetwork& network, double h)
 {
-    const double scale = carried.scale_to(h);
-    if (scale != 1.0)
-        for (PistonState& piston : state.pistons) piston.guide_impulse *= scale;
+    const double before = std::exchange(network.carried.impulse_step, h);
+    const double scale = before < infinity ? h / before : 1.0;
+    if (scale == 1.0) return scale;
+    for (Tile& tile : network.list.tiles.tiles) tile.carried.scale(scale);
+    network.carried.walls.scale(scale);
+    for (PistonState& piston : state.pistons) piston.guide_impulse *= scale;
     return scale;
 }
 
 /// v⁽¹⁾ = v⁽⁰⁾ + h g.
 void add_gravity(std::vector<Motion>& motion, const Vec3& gravity, double h)
 {
-    for (auto& m : motion) m.velocity += h * gravity;
+#pragma omp parallel for schedule(static) if (motion.size() > few_spheres)
+    for (std::size_t i = 0; i < motion.size(); ++i) motion[i].velocity += h * gravity;
 }
 
 /// x ← x + h v. Spheres are round: their orientation is not kept. What does not fit into the digits of x waits for the
@@ -50,6 +61,7 @@ void add_gravity(std::vector<Motion>& motion, const Vec3& gravity, double h)
 /// lose half of that in every step, always the same way.
 void move_spheres(State& state, double h)
 {
+#pragma omp parallel for schedule(static) if (state.count() > few_spheres)
     for (std::size_t i = 0; i < state.count(); ++i) {
         Vec3& x = state.position[i];
         Vec3& rest = state.position_rest[i];
@@ -75,7 +87,8 @@ double move_pistons(State& state, const std::vector<Piston>& pistons, double h)
 void wrap_positions(State& state, const Periodicity& periodicity)
 {
     if (!periodicity.any()) return;
-    for (Vec3& x : state.position) x = periodicity.wrapped(x);
+#pragma omp parallel for schedule(static) if (state.count() > few_spheres)
+    for (std::size_t i = 0; i < state.count(); ++i) state.position[i] = periodicity.wrapped(state.position[i]);
 }
 
 /// A sphere whose centre is inside an outlet leaves lawfully, even if it is out of the outlet again when it is taken
@@ -83,6 +96,7 @@ void wrap_positions(State& state, const Periodicity& periodicity)
 void mark_leaving(State& state, const std::vector<Region>& outlets)
 {
     for (const auto& outlet : outlets)
+#pragma omp parallel for schedule(static) if (state.count() > few_spheres)
         for (std::size_t i = 0; i < state.count(); ++i)
             if (outlet.contains(state.position[i])) state.leaving[i] = 1;
 }
@@ -93,7 +107,8 @@ double fastest_of(const State& state, const std::vector<Flight>& flights, double
 {
     if (too_fast == infinity) return 0.0;
     double fastest = 0.0;
-    for (const Motion& m : state.motion) fastest = std::max(fastest, m.velocity.squaredNorm());
+#pragma omp parallel for schedule(static) reduction(max : fastest) if (state.count() > few_spheres)
+    for (std::size_t i = 0; i < state.count(); ++i) fastest = std::max(fastest, state.motion[i].velocity.squaredNorm());
     for (const PistonState& piston : state.pistons) fastest = std::max(fastest, piston.velocity.squaredNorm());
     fastest = std::sqrt(fastest);
     for (const Flight& flight : flights)
@@ -127,7 +142,7 @@ PreparedStep prepare_step(
 
     // Which spheres and walls can touch during this step?
     if (observer) observer(Phase::search);
-    prepared.impulse_scale = scale_impulses(state, network.carried, step.h());
+    prepared.impulse_scale = scale_impulses(state, network, step.h());
     renumber_along_curve(state, network, model);
     prepared.walls = place_walls(model, state, step.h());
     prepared.search.searched = update_candidates(network.list, network.carried, state, model, step.h(), prepared.walls);

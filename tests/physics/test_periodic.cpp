@@ -124,8 +124,8 @@ TEST_CASE("a ring of spheres pressed together round a periodic axis pushes itsel
 {
     // Six spheres of 10.1 mm in a cell of 60 mm overlap each neighbour by 0.1 mm, the last the first across the border:
     // by symmetry nothing moves, and every contact carries the same. The position pass of `projected` takes one pair
-    // after the other: it passes the overlap on, which has no room to go, by a fraction of it.
-    const double passed_on = 2e-5;
+    // after the other: it passes the overlap on, which has no room to go, by a quarter of it at most.
+    const double passed_on = 2.5e-5;
     const auto solver = GENERATE(rigid_settings(), matched_settings());
     World world = without_gravity({.friction = 0.5}, solver, along_x());
     for (int k = 0; k < 6; ++k) world.add_sphere(Vec3(0.002 + 0.01 * k, 0, 0), Vec3::Zero(), Vec3::Zero(), 0.00505);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 #include <set>
+#include <stdexcept>
 
 using namespace talus;
 using namespace talus::test;
@@ -44,7 +45,8 @@ using Pairs = std::set<std::pair<std::int32_t, std::int32_t>>;
 Pairs listed_pairs(const ContactNetwork& network)
 {
     Pairs pairs;
-    for (const auto& pair : network.list.pairs) pairs.insert({pair.a, pair.b});
+    for (const Tile& tile : network.list.tiles.tiles)
+        for (const auto& pair : tile.pairs) pairs.insert({pair.a, pair.b});
     return pairs;
 }
 
@@ -54,7 +56,7 @@ std::size_t check_pairs(const World& world)
     const auto& state = world.state;
     const double reach = open_contact_reach * world.model.min_diameter;
     const auto listed = listed_pairs(world.network);
-    REQUIRE(listed.size() == world.network.list.pairs.size()); // each once
+    REQUIRE(listed.size() == world.network.list.tiles.pair_count()); // each once
     std::size_t within = 0;
     for (std::size_t i = 0; i < state.count(); ++i)
         for (std::size_t j = i + 1; j < state.count(); ++j) {
@@ -207,14 +209,15 @@ TEST_CASE("impulses stay with their pair when the list is rebuilt and renumbered
     World world = make_world({.friction = 0.5}, production_settings(Stabilisation::matched), 1e-4);
     for (int i = 0; i < 20; ++i) world.add_sphere(Vec3(0.0099 * i, 0, 0));
     world.update_candidates();
-    const auto slot_of = [&](std::int32_t a, std::int32_t b) {
-        const auto& pairs = world.network.list.pairs;
-        const auto found = std::find(pairs.begin(), pairs.end(), IndexPair{std::min(a, b), std::max(a, b)});
-        REQUIRE(found != pairs.end());
-        return static_cast<std::size_t>(found - pairs.begin());
+    const auto carried_of = [&](std::int32_t a, std::int32_t b) -> CarriedContact& {
+        const IndexPair pair{std::min(a, b), std::max(a, b)};
+        for (Tile& tile : world.network.list.tiles.tiles)
+            for (std::size_t slot = 0; slot < tile.pairs.size(); ++slot)
+                if (tile.pairs[slot] == pair) return tile.carried.contact[slot];
+        throw std::logic_error("not listed");
     };
     for (std::int32_t i = 0; i < 19; ++i) {
-        CarriedContact& carried = world.network.carried.pairs.contact[slot_of(i, i + 1)];
+        CarriedContact& carried = carried_of(i, i + 1);
         carried.impulse = Vec3(i + 1, 0, 0);
         carried.touch.note_load(true);
     }
@@ -227,9 +230,8 @@ TEST_CASE("impulses stay with their pair when the list is rebuilt and renumbered
 
     for (std::int32_t i = 0; i < 19; ++i) {
         const auto a = (7 * i) % 20, b = (7 * (i + 1)) % 20;
-        const auto slot = slot_of(a, b);
         // On the bead of lower storage index: turned round where that is now the other one.
-        const CarriedContact& carried = world.network.carried.pairs.contact[slot];
+        const CarriedContact& carried = carried_of(a, b);
         CHECK(carried.impulse == (a < b ? 1.0 : -1.0) * Vec3(i + 1, 0, 0));
         CHECK(carried.touch.is_loaded());
     }

@@ -66,8 +66,9 @@ std::size_t check_pairs(const World& world)
 {
     const auto& state = world.state;
     std::set<std::pair<std::int32_t, std::int32_t>> listed;
-    for (const auto& pair : world.network.list.pairs) listed.insert({pair.a, pair.b});
-    REQUIRE(listed.size() == world.network.list.pairs.size()); // each once
+    for (const Tile& tile : world.network.list.tiles.tiles)
+        for (const auto& pair : tile.pairs) listed.insert({pair.a, pair.b});
+    REQUIRE(listed.size() == world.network.list.tiles.pair_count()); // each once
     const auto shifts = world.model.periodicity.neighbor_shifts();
     std::size_t within = 0;
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(state.count()); ++i)

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 using namespace talus;
 
@@ -148,22 +149,18 @@ TEST_CASE("two tiles of one colour share no sphere through pairs across periodic
     for (const auto& [a, b] : pairs)
         farthest = std::max(farthest, periodicity.nearest_image(places[a] - places[b]).lpNorm<Eigen::Infinity>());
 
-    const auto tiles = make_tiles(places, 2.001 * farthest, periodicity);
-    REQUIRE(tiles.count() > Tiles::colors);
-    std::vector<std::size_t> tile(places.size(), tiles.count());
-    for (std::size_t t = 0; t < tiles.count(); ++t)
-        for (auto k = tiles.first[t]; k < tiles.first[t + 1]; ++k) {
-            CHECK(tile[tiles.spheres[k]] == tiles.count()); // in one tile only
-            tile[tiles.spheres[k]] = t;
-        }
-    for (std::size_t color = 0; color < Tiles::colors; ++color) {
-        std::map<std::int32_t, std::size_t> user;
-        bool shared = false;
-        for (const auto& [a, b] : pairs) {
-            const auto owner = tile[a];
-            if (owner < tiles.color_first[color] || owner >= tiles.color_first[color + 1]) continue;
-            for (const auto i : {a, b}) shared = shared || user.try_emplace(i, owner).first->second != owner;
-        }
-        CHECK_FALSE(shared);
+    const TileGrid grid(2.001 * farthest, periodicity, Vec3(0.3, -7, 0));
+    std::set<std::uint64_t> cells_used;
+    bool shared = false;
+    std::map<std::pair<std::size_t, std::int32_t>, std::uint64_t> user;
+    for (const auto& [a, b] : pairs) {
+        const auto cell = grid.cell(places[static_cast<std::size_t>(a)]);
+        cells_used.insert(cell);
+        for (const auto i : {a, b})
+            shared = shared || user.try_emplace({TileGrid::color(cell), i}, cell).first->second != cell;
     }
+    CHECK(cells_used.size() > Tiles::colors);
+    CHECK_FALSE(shared);
+    for (const Vec3& x : places)
+        for (const Vec3& shift : periodicity.neighbor_shifts()) CHECK(grid.cell(x + shift) == grid.cell(x));
 }

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
+#include <tuple>
 
 using namespace talus;
 
@@ -26,37 +26,7 @@ std::vector<Vec3> random_places(std::size_t count, const Vec3& size, std::uint64
     return places;
 }
 
-/// The tile of each sphere.
-std::vector<std::size_t> tile_of_sphere(const Tiles& tiles, std::size_t count)
-{
-    std::vector<std::size_t> tile(count);
-    for (std::size_t t = 0; t < tiles.count(); ++t)
-        for (auto k = tiles.first[t]; k < tiles.first[t + 1]; ++k) tile[static_cast<std::size_t>(tiles.spheres[k])] = t;
-    return tile;
-}
-
 } // namespace
-
-TEST_CASE("each sphere is in exactly one tile, and each tile has one and a colour", "[tiles]")
-{
-    const auto count = GENERATE(as<std::size_t>{}, 1, 5, 1000);
-    const auto edge = GENERATE(0.07, 0.5, 10.0);
-    const auto tiles = make_tiles(random_places(count, Vec3(2, 1, 3), 1), edge);
-    std::vector<std::int32_t> all(count);
-    std::iota(all.begin(), all.end(), 0);
-    auto spheres = tiles.spheres;
-    std::sort(spheres.begin(), spheres.end());
-    CHECK(spheres == all);
-    REQUIRE(tiles.first.front() == 0);
-    CHECK(tiles.first.back() == count);
-    for (std::size_t t = 0; t < tiles.count(); ++t) {
-        CHECK(tiles.first[t] < tiles.first[t + 1]);
-        CHECK(std::is_sorted(tiles.spheres.begin() + tiles.first[t], tiles.spheres.begin() + tiles.first[t + 1]));
-    }
-    CHECK(tiles.color_first.front() == 0);
-    CHECK(std::is_sorted(tiles.color_first.begin(), tiles.color_first.end()));
-    CHECK(tiles.color_first.back() == tiles.count());
-}
 
 TEST_CASE("two tiles of one colour share no sphere through the pairs that they own", "[tiles]")
 {
@@ -71,30 +41,67 @@ TEST_CASE("two tiles of one colour share no sphere through the pairs that they o
         farthest = std::max(farthest,
             (places[static_cast<std::size_t>(a)] - places[static_cast<std::size_t>(b)]).lpNorm<Eigen::Infinity>());
 
-    const auto tiles = make_tiles(places, 2.001 * farthest);
-    REQUIRE(tiles.count() > Tiles::colors);
-    const auto tile = tile_of_sphere(tiles, places.size());
-    for (std::size_t color = 0; color < Tiles::colors; ++color) {
-        std::map<std::int32_t, std::size_t> user; // the tile that moves a sphere while this colour has its turn
-        bool shared = false;
-        for (const auto& [a, b] : pairs) {
-            const auto owner = tile[static_cast<std::size_t>(a)];
-            if (owner < tiles.color_first[color] || owner >= tiles.color_first[color + 1]) continue;
-            for (const auto i : {a, b}) shared = shared || user.try_emplace(i, owner).first->second != owner;
-        }
-        CHECK_FALSE(shared);
+    const TileGrid grid(2.001 * farthest, {}, Vec3(0.3, -7, 0));
+    std::set<std::uint64_t> cells;
+    bool shared = false;
+    std::map<std::pair<std::size_t, std::int32_t>, std::uint64_t> user; // of a sphere while a colour has its turn
+    for (const auto& [a, b] : pairs) {
+        const auto cell = grid.cell(places[static_cast<std::size_t>(a)]);
+        cells.insert(cell);
+        for (const auto i : {a, b})
+            shared = shared || user.try_emplace({TileGrid::color(cell), i}, cell).first->second != cell;
+    }
+    CHECK(cells.size() > Tiles::colors);
+    CHECK_FALSE(shared);
+}
+
+TEST_CASE("a place lies in the cell of its cube, wherever the spheres are", "[tiles]")
+{
+    const Vec3 corner = GENERATE(Vec3(0, 0, 0), Vec3(1e6, -3, 0.1));
+    constexpr double edge = 0.5;
+    const TileGrid grid(edge, {}, corner);
+    std::map<std::tuple<int, int, int>, std::uint64_t> cell_of;
+    std::map<std::uint64_t, std::tuple<int, int, int>> cube_of;
+    for (const auto& x : random_places(2000, Vec3(4, 4, 4), 3)) {
+        const Vec3 along = ((corner + x - corner) / edge).array().floor();
+        const std::tuple cube{static_cast<int>(along[0]), static_cast<int>(along[1]), static_cast<int>(along[2])};
+        const auto cell = grid.cell(corner + x);
+        CHECK(cell_of.try_emplace(cube, cell).first->second == cell);
+        CHECK(cube_of.try_emplace(cell, cube).first->second == cube);
+        const auto odd = [](int k) { return static_cast<std::size_t>(k & 1); };
+        CHECK(
+            TileGrid::color(cell) == odd(std::get<0>(cube)) + 2 * odd(std::get<1>(cube)) + 4 * odd(std::get<2>(cube)));
     }
 }
 
-TEST_CASE("no spheres have no tiles", "[tiles][degenerate]")
+TEST_CASE("tiles are opened for cells that have none, in the order of their colours", "[tiles]")
 {
-    const auto tiles = make_tiles({}, 1.0);
+    const TileGrid grid(1.0, {}, Vec3::Zero());
+    const auto cell = [&](double x, double y) { return grid.cell(Vec3(x + 0.5, y + 0.5, 0.5)); };
+    Tiles tiles;
     CHECK(tiles.count() == 0);
-    CHECK(tiles.color_first.back() == 0);
+    tiles.open({cell(3, 0), cell(0, 0), cell(3, 0), cell(2, 4)});
+    REQUIRE(tiles.count() == 3);
+    CHECK(tiles.color_first == std::array<std::uint32_t, 9>{0, 2, 3, 3, 3, 3, 3, 3, 3});
+    const auto tile = [&](double x, double y) -> Tile& {
+        return tiles.tiles[static_cast<std::size_t>(tiles.of_cell(cell(x, y)))];
+    };
+    tile(3, 0).pairs = {{4, 7}};
+    tiles.open({cell(0, 0)}); // is there: nothing happens
+    CHECK(tiles.count() == 3);
+    tiles.open({cell(0, 0), cell(5, 5)});
+    CHECK(tiles.count() == 3); // (2, 4) was empty and not asked for
+    CHECK(tiles.of_cell(cell(2, 4)) == -1);
+    CHECK(tile(3, 0).pairs == std::vector<IndexPair>{{4, 7}});
+    CHECK(tile(5, 5).pairs.empty());
+    CHECK(std::is_sorted(tiles.cells.begin(), tiles.cells.end()));
+    CHECK(tiles.color_first == std::array<std::uint32_t, 9>{0, 1, 2, 2, 3, 3, 3, 3, 3});
 }
 
-TEST_CASE("spheres that lie millions of tiles apart are still told apart", "[tiles][degenerate]")
+TEST_CASE("the outermost cells have no end", "[tiles][degenerate]")
 {
-    const auto tiles = make_tiles({Vec3::Zero(), Vec3(1e9, 0, 0), Vec3(0, -1e9, 0), Vec3(0, 0, 1e9)}, 0.01);
-    CHECK(tiles.count() == 4);
+    const TileGrid grid(0.01, {}, Vec3::Zero());
+    CHECK(grid.cell(Vec3(1e9, 0, 0)) == grid.cell(Vec3(1e300, 0, 0)));
+    CHECK(grid.cell(Vec3(1e9, 0, 0)) != grid.cell(Vec3(-1e9, 0, 0)));
+    CHECK(grid.cell(Vec3(1e9, 0, 0)) != grid.cell(Vec3(0, 0, 1e9)));
 }

@@ -104,14 +104,17 @@ TEST_CASE("all instruction sets give the same bits, whatever a scene models", "[
     }
 }
 
-TEST_CASE("no two contacts of a pack share a sphere, and packs are nearly full", "[packed_sweep]")
+TEST_CASE("no two contacts of a pack share a sphere, and those of large tiles are nearly full", "[packed_sweep]")
 {
     World world = crowd({.friction = 0.4}, true, false);
     world.step(1);
-    std::size_t contacts = 0, packs = 0;
+    std::size_t contacts = 0, large = 0;
     std::set<std::pair<std::int32_t, std::int32_t>> pairs;
     for (const TileContacts& tile : world.network.contacts.spheres) {
-        packs += tile.packs();
+        if (tile.count() > 200) {
+            ++large;
+            CHECK(static_cast<double>(tile.count()) > 0.8 * pack_size * static_cast<double>(tile.packs()));
+        }
         std::map<std::size_t, std::set<std::int32_t>> spheres;
         for (const std::size_t k : tile.indices()) {
             ++contacts;
@@ -120,8 +123,8 @@ TEST_CASE("no two contacts of a pack share a sphere, and packs are nearly full",
             CHECK(pairs.insert({tile.a(k), tile.b(k)}).second);
         }
     }
-    REQUIRE(contacts > 400);
-    CHECK(static_cast<double>(contacts) > 0.7 * pack_size * static_cast<double>(packs));
+    CHECK(contacts > 400);
+    CHECK(large > 0);
 }
 
 TEST_CASE("contacts of one sphere are in packs of their own, more than a window of them", "[packed_sweep]")

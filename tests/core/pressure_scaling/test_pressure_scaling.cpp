@@ -254,8 +254,9 @@ TEST_CASE("a solution is left as it is", "[pressure_scaling]")
     CAPTURE(k);
     World world = variant(k < variants ? k : 1);
     if (k == variants)
-        for (CarriedContact& carried : world.network.carried.pairs.contact)
-            if (carried.touch.is_loaded()) carried.touch.note_crushed();
+        for (Tile& tile : world.network.list.tiles.tiles)
+            for (CarriedContact& carried : tile.carried.contact)
+                if (carried.touch.is_loaded()) carried.touch.note_crushed();
     WarmStep step(std::move(world));
     SolverSettings solver = step.world.model.solver;
     solver.tolerance = 1e-9;

@@ -27,7 +27,7 @@ TEST_CASE("a crew takes each tile once, no colour before the one before it, and 
     const auto threads = GENERATE(1, 2, 3, 4);
     Tiles tiles;
     tiles.color_first = {0, 3, 3, 4, 9, 12, 13, 13, 20};
-    tiles.first.resize(21);
+    tiles.tiles.resize(20);
     Random random(1);
     std::vector<double> delay; // of the last tile in a call
     for (int call = 0; call < calls; ++call) delay.push_back(call % 4 == 0 ? 40 * uniform(random) : 0);
