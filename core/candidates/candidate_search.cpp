@@ -16,7 +16,6 @@ constexpr double tile_diameters =
     6.0;                            ///< a tile's edge at least, in mean diameters: packs of smaller ones are less full
 constexpr double worn_share = 0.25; ///< a sphere that has used up so much of its skin is searched for along with others
 constexpr double wall_skin = 0.2;   ///< how far a wall may move before it is searched for anew, in smallest diameters
-constexpr double few = 0.3;         ///< share of the spheres up to which they are searched for alone
 
 /// Room around the centre of sphere i that its surface takes, with half the reach of its contacts.
 double needed_radius(const State& state, const Model& model, std::size_t i)
@@ -125,18 +124,12 @@ bool can_touch(const CandidateList& list, const State& state, const Model& model
     return model.periodicity.apart(a, b).squaredNorm() <= (ra + rb) * (ra + rb);
 }
 
-/// Whether movers are searched for alone; else all spheres are.
-bool are_few(const std::vector<std::int32_t>& movers, const CandidateList& list)
-{
-    return static_cast<double>(movers.size()) < few * static_cast<double>(list.listed_box.size());
-}
-
-/// The pairs with at least one member in `movers`, or all where these are not few.
+/// The pairs with at least one member in `movers`; when nothing has been listed yet, all.
 std::vector<IndexPair> pairs_of(
     const std::vector<std::int32_t>& movers, const CandidateList& list, const State& state, const Model& model)
 {
-    auto met = are_few(movers, list) ? find_box_pairs(list.listed_box, movers, model.periodicity)
-                                     : find_box_pairs(list.listed_box, model.periodicity);
+    auto met = list.tile_edge > 0.0 ? find_box_pairs(list.listed_box, movers, model.periodicity)
+                                    : find_box_pairs(list.listed_box, model.periodicity);
     std::vector<std::uint8_t> serves(met.size());
 #pragma omp parallel for schedule(static) if (met.size() > 10000)
     for (std::size_t k = 0; k < met.size(); ++k) serves[k] = can_touch(list, state, model, met[k]);
@@ -243,7 +236,7 @@ private:
 void list_anew(CandidateList& list, Carried& carried, const State& state, const Model& model,
     const std::vector<std::int32_t>& movers, const WallEntries& walls)
 {
-    std::vector<std::uint8_t> moves(state.count(), !are_few(movers, list));
+    std::vector<std::uint8_t> moves(state.count(), 0);
     for (const auto i : movers) moves[static_cast<std::size_t>(i)] = 1;
     auto found = pairs_of(movers, list, state, model);
     const double edge = tile_edge(list, model, movers);

@@ -21,8 +21,8 @@ struct IndexPair {
 /// (CGAL's box intersection, slab by slab, the slabs at the same time).
 std::vector<IndexPair> find_box_pairs(const std::vector<Box>& boxes, const Periodicity& periodicity = {});
 
-/// The same, but only the pairs with at least one member in `movers`, whose entries differ: in a grid of their own, for
-/// few of them (mover_search.cpp).
+/// The same, but only the pairs with at least one member in `movers`, whose entries differ: by a grid of the movers
+/// (mover_search.cpp).
 std::vector<IndexPair> find_box_pairs(
     const std::vector<Box>& boxes, const std::vector<std::int32_t>& movers, const Periodicity& periodicity = {});
 

@@ -69,12 +69,13 @@ struct MotionBefore {
 ///   list      update_candidates: listed boxes,
 ///     |       pairs by tile; the place of a pair is its slot
 ///     v
-///   carried   λ, touch: by slot  -- assemble_contacts -->  contacts  n, g, law, λ⁰: by tile, those that are near
+///   slots     λ, touch           -- assemble_contacts -->  contacts  n, g, law, λ⁰: by tile, those that are near
 ///     ^                                                        |     their `slot` says where λ comes from
 ///     |                                                        |     warm start, sweeps: λ
 ///     +------------------ carry_impulses ----------------------+
 ///
-/// Impulses stay in place as long as the list does, and move with their pairs when it is laid down anew.
+/// Impulses stay in place as long as the pair is not searched for, and move with it then. Those of pairs of spheres
+/// stand in their tiles, `carried` has those of walls.
 struct ContactNetwork {
     CandidateList list;
     Carried carried;
