@@ -25,15 +25,22 @@ namespace talus
 namespace
 {
 
-/// Starts the program anew, once, with GOMP_SPINCOUNT set, unless the user has set that or OMP_WAIT_POLICY.
+/// Starts the program anew, once, with what the libraries read from the environment before main, unless the user has
+/// set it.
 ///
 /// A thread of GCC's OpenMP that has nothing to do spins for a millisecond and more before it sleeps, on a processor
 /// that others may need: on two cores that had other work, a run on two threads took more than twice as long and
-/// ten times the processor time. The variable is read when the library is loaded, before main.
-void restart_with_short_spins(char** argv)
+/// ten times the processor time.
+///
+/// The C library asks for pages of 2 MB only then: a step of 200 000 settled spheres takes a fifth less time with them,
+/// whose places the processor finds sooner.
+void restart_with_own_settings(char** argv)
 {
-    if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
-    setenv("GOMP_SPINCOUNT", "2000", 1);
+    const bool spins = std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY");
+    const bool pages = std::getenv("GLIBC_TUNABLES");
+    if (spins && pages) return;
+    if (!spins) setenv("GOMP_SPINCOUNT", "2000", 1);
+    if (!pages) setenv("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1", 1);
     execv("/proc/self/exe", argv); // returns only if it cannot; then the run goes on as it is
 }
 
@@ -113,7 +120,7 @@ ExitCode execute_guarded(int argc, const char* const* argv)
 
 int main(int argc, char** argv)
 {
-    talus::restart_with_short_spins(argv);
+    talus::restart_with_own_settings(argv);
     talus::keep_freed_memory();
     talus::catch_crashes();
     return static_cast<int>(talus::execute_guarded(argc, argv));

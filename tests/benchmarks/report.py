@@ -42,7 +42,7 @@ def instruction_sets():
 
 def run(command, what):
     """Idle threads leave the processor to others, as those of the program do."""
-    environment = {**os.environ, "GOMP_SPINCOUNT": "2000"}
+    environment = {**os.environ, "GOMP_SPINCOUNT": "2000", "GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"}
     environment.pop("OMP_NUM_THREADS", None)
     if subprocess.run(list(map(str, command)), cwd=ROOT, env=environment, check=False).returncode:
         raise ResultsError(f"{what} failed.")
