@@ -3,6 +3,7 @@
 #include "tests/support/world.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <set>
 #include <stdexcept>
@@ -50,9 +51,24 @@ Pairs listed_pairs(const ContactNetwork& network)
     return pairs;
 }
 
-/// How many spheres are within reach of each other; requires that all of these are listed.
+/// Whether two tiles of one colour have pairs with the same sphere: threads would move it at once.
+bool tiles_share_spheres(const Tiles& tiles)
+{
+    for (std::size_t color = 0; color < Tiles::colors; ++color) {
+        std::map<std::int32_t, std::size_t> tile_of;
+        for (std::size_t t = tiles.color_first[color]; t < tiles.color_first[color + 1]; ++t)
+            for (const IndexPair& pair : tiles.tiles[t].pairs)
+                for (const auto i : {pair.a, pair.b})
+                    if (tile_of.try_emplace(i, t).first->second != t) return true;
+    }
+    return false;
+}
+
+/// How many spheres are within reach of each other; requires that all of these are listed, in tiles that do not share
+/// them.
 std::size_t check_pairs(const World& world)
 {
+    REQUIRE_FALSE(tiles_share_spheres(world.network.list.tiles));
     const auto& state = world.state;
     const double reach = open_contact_reach * world.model.min_diameter;
     const auto listed = listed_pairs(world.network);
@@ -235,6 +251,43 @@ TEST_CASE("impulses stay with their pair when the list is rebuilt and renumbered
         CHECK(carried.impulse == (a < b ? 1.0 : -1.0) * Vec3(i + 1, 0, 0));
         CHECK(carried.touch.is_loaded());
     }
+}
+
+TEST_CASE(
+    "a sphere that crosses several others in a step makes larger tiles, and nothing is lost", "[candidate_search]")
+{
+    // Rows of beads that touch their neighbours; one flies over them by two diameters a step, to and fro.
+    constexpr double diameter = 2.0 * standard_radius, time_step = 1e-4;
+    const double per_step = GENERATE(0.5, 2.0, 5.0);
+    World world = make_world({.friction = 0.5}, production_settings(Stabilisation::matched), time_step);
+    world.model.gravity.setZero();
+    for (int i = 0; i < 30; ++i)
+        for (int j = 0; j < 12; ++j) world.add_sphere(diameter * Vec3(i, j, 0));
+    const auto fast = static_cast<std::size_t>(world.add_sphere(diameter * Vec3(1, 5, 1.005)));
+    world.update_candidates();
+    const double usual_edge = world.network.list.tile_edge;
+    for (Tile& tile : world.network.list.tiles.tiles)
+        for (std::size_t slot = 0; slot < tile.pairs.size(); ++slot)
+            tile.carried.contact[slot].impulse.x() = tile.pairs[slot].a + 1000.0 * tile.pairs[slot].b;
+    Vec3& velocity = world.state.motion[fast].velocity;
+    velocity.x() = per_step * diameter / time_step;
+    std::size_t within = 0;
+    for (int step = 0; step < 40; ++step) {
+        Vec3& x = world.state.position[fast];
+        if (x.x() + time_step * velocity.x() > 29 * diameter || x.x() + time_step * velocity.x() < 0.0)
+            velocity *= -1.0;
+        world.update_candidates();
+        within += check_pairs(world) - 30 * 11 - 29 * 12;
+        x += time_step * velocity;
+    }
+    CHECK(within >= 20); // it comes by over one where it is over one
+    CHECK((world.network.list.tile_edge > usual_edge) == (per_step > 1.0));
+    for (const Tile& tile : world.network.list.tiles.tiles)
+        for (std::size_t slot = 0; slot < tile.pairs.size(); ++slot) {
+            const auto [a, b] = tile.pairs[slot];
+            if (b == static_cast<std::int32_t>(fast)) continue;
+            CHECK(tile.carried.contact[slot].impulse.x() == a + 1000.0 * b);
+        }
 }
 
 TEST_CASE("spheres at rest are not searched for again", "[candidate_search]")
