@@ -179,6 +179,7 @@ void RunLoop::take_checkpoint()
     const double begun = clock_.wall();
     std::uint64_t metrics_size = metrics_->size();
     Archive archive;
+    archive.take_room(std::move(recent_.bytes));
     archive(origin_);
     persist(archive, metrics_size);
     recent_ = {archive.take_bytes(), simulation_.state.time, clock_.wall(), clock_.wall() - begun};

@@ -41,6 +41,13 @@ public:
     const std::string& bytes() const { return bytes_; }
     std::string take_bytes() { return std::move(bytes_); }
 
+    /// Stores into the memory of these bytes, which are forgotten.
+    void take_room(std::string bytes)
+    {
+        bytes.clear();
+        bytes_ = std::move(bytes);
+    }
+
     /// How many bytes have been put back.
     std::size_t position() const { return at_; }
 

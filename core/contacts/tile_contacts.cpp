@@ -3,6 +3,17 @@
 
 namespace talus
 {
+namespace
+{
+
+/// With room for an eighth more at most: packs are the most of what a step holds in memory.
+template <class Pack> void add_one(std::vector<Pack>& packs)
+{
+    if (packs.size() == packs.capacity()) packs.reserve(packs.size() + packs.size() / 8 + 1);
+    packs.emplace_back();
+}
+
+} // namespace
 
 void TileContacts::clear(bool rolling, bool moving_walls, bool made_whole)
 {
@@ -16,10 +27,10 @@ void TileContacts::append_pack()
 {
     const std::size_t p = count_++;
     if (packs_.size() < count_) {
-        packs_.emplace_back();
-        records_.emplace_back();
-        if (with_rolling_) rolling_.emplace_back();
-        if (with_moving_walls_) wall_.emplace_back();
+        add_one(packs_);
+        add_one(records_);
+        if (with_rolling_) add_one(rolling_);
+        if (with_moving_walls_) add_one(wall_);
     } else if (!made_whole_) {
         packs_[p] = {};
         if (with_rolling_) rolling_[p] = {};
