@@ -62,16 +62,16 @@ function roomy(u, low, high) {
 
 /** A chart over time whose cursor is the clock. */
 class TimeChart {
-  /** @param columns numbers by name */
+  /** @param panel its curves have the colours 0, 1, …, unless they name others; @param columns numbers by name */
   constructor(panel, columns, clock) {
     this.clock = clock;
     this.panel = panel;
     this.columns = columns;
     this.numbers = panel.curves.map(() => h("b"));
-    const swatch = (n) => h("i", { "data-curve": n % 6 });
+    const swatch = (curve, n) => h("i", { "data-curve": (curve.colour ?? n) % 6 });
     const many = panel.curves.length > 1 || panel.curves[0].label !== panel.title;
     this.head = h("div", { class: "head" }, h("h3", {}, panel.title.charAt(0).toUpperCase() + panel.title.slice(1)), h("span", { class: "unit" }, panel.unit),
-      h("span", { class: "values" }, ...panel.curves.map((curve, n) => h("span", {}, swatch(n), many ? `${curve.label} ` : "", this.numbers[n]))));
+      h("span", { class: "values" }, ...panel.curves.map((curve, n) => h("span", {}, swatch(curve, n), many ? `${curve.label} ` : "", this.numbers[n]))));
     this.plot = h("div", { class: "plot" });
     this.note = h("p", { class: "note", hidden: !panel.result });
     if (panel.result) this.note.textContent = `Shaded: what was averaged, ${short(panel.result.from)} to ${short(panel.result.to)} s; ${panel.result.told} ${panel.unit}`;
@@ -96,7 +96,7 @@ class TimeChart {
       cursor: { drag: { setScale: false, x: false, y: false }, points: { show: false }, x: false, y: false },
       scales: { x: { time: false, range: () => [this.clock.from, this.clock.to] }, y: log ? { distr: 3, range: (u, least, greatest) => decades(u, low, greatest) } : { range: roomy } },
       axes: axes(log),
-      series: [{}, ...panel.curves.map((curve, n) => ({ stroke: curveColour(n), width: 1.5, points: { show: false }, dash: n > 2 ? [6, 3] : undefined }))],
+      series: [{}, ...panel.curves.map((curve, n) => ({ stroke: curveColour(curve.colour ?? n), width: 1.5, points: { show: false }, dash: n > 2 ? [6, 3] : undefined }))],
       hooks: { drawAxes: [(u) => this.shade(u)], ready: [(u) => this.putCursor(u)] },
     }, data, this.plot);
     dragMovesClock(u.over, (event) => u.posToVal(event.clientX - u.over.getBoundingClientRect().left, "x"), this.clock);
