@@ -81,7 +81,7 @@ void add_run_options(CLI::App& verb, CommandLine& line)
 
 void add_page_flags(CLI::App& verb, CommandLine& line)
 {
-    verb.add_flag("--report", line.report, "When it is over, make report.html: a page that plays the run");
+    verb.add_flag("--report", line.report, "When it is over or stopped, make report.html: a page that plays the run");
     verb.add_flag("--watch", line.watch, "Show the run in a browser while it goes on");
 }
 

@@ -76,7 +76,11 @@ install(DIRECTORY ${docs}/html/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html COMPONE
   PATTERN .buildinfo EXCLUDE PATTERN objects.inv EXCLUDE)
 
 # Debian packages, into packages/ of the build folder: talus, libtalus-dev and, where the site was built, talus-doc.
-set(TALUS_MAINTAINER "The authors of Talus <maintainers@talus.invalid>" CACHE STRING "Who answers for the packages")
+set(maintainer "The authors of Talus <maintainers@talus.invalid>") # no such address: packages for oneself
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL}) # as Debian's own tools have it
+  set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
+set(TALUS_MAINTAINER "${maintainer}" CACHE STRING "Who answers for the packages")
 set(changelog ${PROJECT_BINARY_DIR}/changelog)
 configure_file(app/debian/changelog.in ${changelog} @ONLY)
 foreach(package IN ITEMS "talus;talus" "development;libtalus-dev" "site;talus-doc")

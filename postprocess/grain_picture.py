@@ -21,7 +21,7 @@ from palette import FAINT_GRAIN, FORCES, INK, MATERIALS, RAMP, WALL
 VIEW_ANGLE = 20.0  # degrees; narrow, so that parallels nearly stay parallel
 OVERSAMPLING = 2  # drawn pixels across a shown one, as the sphere mapper leaves outlines jagged
 BEYOND = 0.12  # how far walls are drawn round what is to be seen, by its diagonal …
-PLANE_BEYOND = 1.5  # … and planes, which have no end
+PLANE_BEYOND = 6.0  # … and planes, which have no end
 
 
 class Setting(NamedTuple):
@@ -294,7 +294,7 @@ def plane_actor(point, normal, setting):
     """A plane as a large square round what is to be seen."""
     middle = (setting.points.min(axis=0) + setting.points.max(axis=0)) / 2
     middle = middle - ((middle - point) @ normal) * normal
-    side = 4 * numpy.linalg.norm(numpy.ptp(setting.points, axis=0))
+    side = 10 * numpy.linalg.norm(numpy.ptp(setting.points, axis=0))
     u = numpy.cross(normal, numpy.eye(3)[numpy.argmin(numpy.abs(normal))])
     u /= numpy.linalg.norm(u)
     v = numpy.cross(normal, u)

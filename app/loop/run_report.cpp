@@ -64,6 +64,15 @@ TimingSummary summarise_timing(const RunLoop& loop)
     return timing;
 }
 
+/// What the run was built as, without the choices that it did not have to make.
+std::vector<Explanation> explanations(const BuildReport& report)
+{
+    std::vector<Explanation> list = {{"accuracy", report.accuracy}, {"solver", report.solver}, {"step", report.step},
+        {"model", report.model}, {"overlap", report.overlap}};
+    std::erase_if(list, [](const Explanation& one) { return one.sentence.empty(); });
+    return list;
+}
+
 void print_sensors(const RunSummary& summary)
 {
     for (const SensorSummary& sensor : summary.sensors)
@@ -170,6 +179,7 @@ RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const RunEn
     summary.scene = opened.name;
     summary.title = opened.scene.title;
     summary.seed = opened.scene.seed;
+    summary.explanations = explanations(opened.report);
     summary.threads = omp_get_max_threads();
     summary.simulated_time = simulation.state.time;
     summary.time_step = simulation.model.time_step;

@@ -205,7 +205,8 @@ class Scene:
         self.name = name
         self.file = ROOT / "scenarios" / f"{name}.toml"
         self.text = self.file.read_text()
-        self.title = tomllib.loads(self.text)["title"]
+        # the digits of 10 000 stay in one line
+        self.title = re.sub(r"(?<=\d) (?=\d{3}\b)", "\u00a0", tomllib.loads(self.text)["title"])
 
     def comment(self):
         """What to expect: the comments that the file begins with, as Markdown."""

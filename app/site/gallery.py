@@ -4,8 +4,8 @@
 
     app/site/gallery.py TALUS FOLDER [SCENE…]
 
-Each scene leaves FOLDER/NAME.png, FOLDER/NAME.json (its command, commit and figures) and, if `talus report` is known,
-FOLDER/NAME.html, the report that plays the run. A scene that has them already is left alone unless its file or its
+Each scene leaves FOLDER/NAME.png, FOLDER/NAME.json (its command, commit and figures) and FOLDER/NAME.html, the report
+that plays the run. A scene that has them already is left alone unless its file or its
 entry in gallery.toml has changed; delete FOLDER to make all anew, with another Talus for instance. Runs go on one
 thread, so that the seconds that are told are those of one.
 """
@@ -21,12 +21,6 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-sys.path.insert(0, str(HERE.parent))
-import man_pages  # noqa: E402  the reader of the program's help
-
-
-def has_verb(talus, verb):
-    return verb in dict(man_pages.read_help(man_pages.ask(talus, "--help")).lists["Subcommands"])
 
 
 def commit():
@@ -45,7 +39,7 @@ def arguments_of(entry):
 
 def is_made(entry, folder, inputs):
     told = folder / f"{entry['scene']}.json"
-    if not told.exists() or not (folder / f"{entry['scene']}.png").exists():
+    if not all((folder / f"{entry['scene']}.{ending}").exists() for ending in ("json", "png", "html")):
         return False
     known = json.loads(told.read_text())
     return known["entry"] == entry and all(path.stat().st_mtime < told.stat().st_mtime for path in inputs)
@@ -59,9 +53,9 @@ def make(talus, entry, folder):
         subprocess.run([talus, *command, "--quiet", "-o", out], check=True)
         subprocess.run([ROOT / "postprocess" / "render.py", out, "--view", entry.get("view", "front"),
                         "--size", "800x800", "--output", folder / f"{name}.png"], check=True, stdout=subprocess.DEVNULL)
-        if has_verb(talus, "report"):
-            subprocess.run([talus, "report", out], check=True, stdout=subprocess.DEVNULL)
-            shutil.copy(out / "report.html", folder / f"{name}.html")
+        # from there, so that the page names the run without the way to it
+        subprocess.run([talus, "report", name, "--output", folder / f"{name}.html", "--force"], cwd=place, check=True,
+                       stdout=subprocess.DEVNULL)
         summary = json.loads((out / "summary.json").read_text())
     told = {"entry": entry, "command": shlex.join(["talus", *command]), "commit": commit(), "summary": summary}
     (folder / f"{name}.json").write_text(json.dumps(told, indent=1))
@@ -72,7 +66,7 @@ def main():
     if len(sys.argv) < 3:
         print(__doc__, file=sys.stderr)
         sys.exit(2)
-    talus, folder, wanted = os.path.abspath(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:]
+    talus, folder, wanted = os.path.abspath(sys.argv[1]), Path(sys.argv[2]).resolve(), sys.argv[3:]
     folder.mkdir(parents=True, exist_ok=True)
     for entry in tomllib.loads((HERE / "gallery.toml").read_text())["run"]:
         if wanted and entry["scene"] not in wanted:

@@ -23,16 +23,19 @@ ExitCode watch_run(const CommandLine& line)
 
 void make_page(const std::filesystem::path& folder, Verbosity verbosity)
 {
+    const bool speaks = verbosity != Verbosity::quiet;
+    if (speaks) say("page: ");
+    std::fflush(stdout); // that takes seconds: who waits knows for what
+    ScriptEnd end;
     try {
-        const ScriptEnd end = run_script("report.py", {"--", folder.string()});
-        if (end.exit_code != 0)
-            warn("the run is complete, but has no page: {}\n",
-                end.err.empty() ? fmt::format("report.py ended with {}", end.exit_code) : end.err);
-        else if (verbosity != Verbosity::quiet)
-            say("page: {}, for any browser\n", end.out);
+        end = run_script("report.py", {"--", folder.string()});
+        if (end.exit_code != 0 && end.err.empty()) end.err = fmt::format("report.py ended with {}", end.exit_code);
     } catch (const UsageError& error) {
-        warn("the run is complete, but has no page: {}\n", error.what());
+        end.exit_code = 2;
+        end.err = error.what();
     }
+    if (speaks) say("{}\n", end.exit_code == 0 ? end.out + ", for any browser" : "none");
+    if (end.exit_code != 0) warn("the run has no page: {}\n", end.err);
 }
 
 } // namespace talus

@@ -103,7 +103,8 @@ std::unique_ptr<ScriptBeside> watch_beside(const CommandLine& line, const fs::pa
     }
 }
 
-/// Runs what is ready to run, writes summary.json and tells how it went; a run that no signal stopped gets its page.
+/// Runs what is ready to run, writes summary.json and tells how it went. The page comes last: it takes seconds, and
+/// whoever does not want to wait for it ends the program with a second Ctrl-C.
 ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const CommandLine& line, const fs::path& folder)
 {
     const auto watcher = watch_beside(line, folder);
@@ -111,16 +112,16 @@ ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const CommandLine&
     const RunSummary summary = summarise(opened, loop, end);
     write_summary(folder / "summary.json", summary);
     if (line.verbosity != Verbosity::quiet) print_results(summary);
-    if (line.report && end.signal == 0) make_page(folder, line.verbosity);
     print_incidents(summary, folder, opened.report.world);
+    const bool stopped = end.incidents.empty() && end.signal != 0;
+    if (stopped)
+        warn("stopped by SIG{} at t = {:.6g} s after a checkpoint; to go on: talus resume {}\n",
+            sigabbrev_np(end.signal), summary.simulated_time, folder.string());
+    if (line.report) make_page(folder, line.verbosity);
     if (!end.incidents.empty()) return ExitCode::physics;
-    if (end.signal == 0) {
-        if (line.verbosity != Verbosity::quiet) advise_to_look(folder);
-        return ExitCode::done;
-    }
-    warn("stopped by SIG{} at t = {:.6g} s after a checkpoint; to go on: talus resume {}\n", sigabbrev_np(end.signal),
-        summary.simulated_time, folder.string());
-    return stopped_by(end.signal);
+    if (stopped) return stopped_by(end.signal);
+    if (line.verbosity != Verbosity::quiet) advise_to_look(folder);
+    return ExitCode::done;
 }
 
 fs::path scene_of_run(const fs::path& folder)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/export/lammps_deck.hpp"
 
+#include "io/export/mesh_parts.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -68,34 +70,65 @@ std::optional<std::string> cone_words(
         "cone {} {:.10g} {:.10g} {:.10g} {:.10g} open 1 open 2", placed->words, base_radius, top_radius, low, high);
 }
 
-/// A wall as the region whose surface it is. An open region is a thin wall with two sides, and with rims.
-struct RegionOf {
+/// A plate as a flat parallelepiped, of which LAMMPS wants the first edge along x and the second across z.
+std::optional<std::string> plate_words(const Plate& plate, double thickness)
+{
+    Vec3 corner = plate.corner, level = plate.edge_a, other = plate.edge_b;
+    const double small = 1e-6 * std::max(level.norm(), other.norm());
+    const auto is_zero = [&](double length) { return std::abs(length) < small; };
+    const bool is_level = is_zero(level.z()) && is_zero(other.z());
+    if (is_level ? !is_zero(level.y()) : !is_zero(level.z())) std::swap(level, other);
+    if (is_level ? !is_zero(level.y()) : !is_zero(level.z())) return std::nullopt;
+    const auto forward = [&](Vec3& edge, int d) { // begins at the other end where it goes back
+        if (edge[d] > 0.0) return;
+        corner += edge;
+        edge = -edge;
+    };
+    const bool is_along_x = is_zero(level.y());
+    forward(level, is_along_x ? 0 : 1);
+    forward(other, is_level ? 1 : 2);
+    const int across = is_level ? 2 : is_along_x ? 1 : 0;
+    const Vec3 thin = thickness / std::abs(level.cross(other).normalized()[across]) * Vec3::Unit(across);
+    const std::array<Vec3, 3> edges = is_level     ? std::array{level, other, thin}
+                                      : is_along_x ? std::array{level, thin, other}
+                                                   : std::array{thin, level, other};
+    const Vec3 low = corner - 0.5 * thin;
+    return fmt::format("prism {:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g} side out",
+        low.x(), low.x() + edges[0].x(), low.y(), low.y() + edges[1].y(), low.z(), low.z() + edges[2].z(), edges[1].x(),
+        edges[2].x(), edges[2].y());
+}
+
+/// A wall as the regions whose surface it is; none where there are no such. An open region is a thin wall with two
+/// sides, and with rims.
+struct RegionsOf {
     const DeckBasis& basis;
     const scene::WallTable& table;
+    ExportNotes& notes;
 
-    using Words = std::optional<std::string>;
+    using Words = std::vector<std::string>;
 
     Words operator()(const Plane& plane) const
     {
         const Vec3 &p = plane.point, &n = plane.normal;
-        return fmt::format(
-            "plane {:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g}", p.x(), p.y(), p.z(), n.x(), n.y(), n.z());
+        return {fmt::format(
+            "plane {:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g}", p.x(), p.y(), p.z(), n.x(), n.y(), n.z())};
     }
     Words operator()(const Cylinder& tube) const
     {
-        return cone_words(tube.base, tube.axis, tube.height, tube.radius, tube.radius);
+        return one(cone_words(tube.base, tube.axis, tube.height, tube.radius, tube.radius));
     }
     Words operator()(const Cone& funnel) const
     {
-        return cone_words(funnel.base, funnel.axis, funnel.height, funnel.base_radius, funnel.top_radius);
+        return one(cone_words(funnel.base, funnel.axis, funnel.height, funnel.base_radius, funnel.top_radius));
     }
     /// A plate is the outside of a cylinder that is nearly flat. A ring is no region, but a cone that is nearly flat is
     /// one; near its axis LAMMPS would take it for a sharp tip.
     Words operator()(const Disk& plate) const
     {
-        const double height = 1e-3 * basis.simulation.model.mean_diameter;
+        const double height = thickness();
         const Vec3 base = plate.center - 0.5 * height * plate.normal;
-        if (plate.hole_radius > 0.0) return cone_words(base, plate.normal, height, plate.hole_radius, plate.radius);
+        if (plate.hole_radius > 0.0)
+            return one(cone_words(base, plate.normal, height, plate.hole_radius, plate.radius));
         Region slice;
         slice.shape = Region::Shape::cylinder;
         slice.base = base;
@@ -103,17 +136,42 @@ struct RegionOf {
         slice.radius = plate.radius;
         slice.height = height;
         const auto words = region_words(slice);
-        return words ? Words(*words + " side out") : Words();
+        return words ? Words{*words + " side out"} : Words{};
     }
     Words operator()(const Panels&) const
     {
         std::string text = box_words({table.min, table.max});
         for (const std::string& face : table.open)
             text += fmt::format(" open {}", 2 * (face[0] - 'x') + (face[1] == '+' ? 2 : 1));
-        return text;
+        return {text};
     }
-    Words operator()(const Mesh&) const { return std::nullopt; }
-    Words operator()(const Grains&) const { return std::nullopt; }
+    Words operator()(const Mesh& mesh) const
+    {
+        Words list;
+        const RoundParts round = round_parts(mesh);
+        for (const Shape& part : round.shapes) {
+            const Words words = std::visit(*this, part);
+            list.insert(list.end(), words.begin(), words.end());
+        }
+        if (!list.empty()) {
+            notes.push_back(fmt::format("the mesh '{}' is round: the circles through its corners, which lie up to "
+                                        "{:.2g} mm outside its triangles",
+                table.name, 1e3 * round.sag));
+            return list;
+        }
+        for (const Plate& plate : plates(mesh)) {
+            const auto words = plate_words(plate, thickness());
+            if (!words) return {};
+            list.push_back(*words);
+        }
+        return list;
+    }
+    Words operator()(const Grains&) const { return {}; }
+
+private:
+    /// Of what is flat.
+    double thickness() const { return 1e-3 * basis.simulation.model.mean_diameter; }
+    static Words one(const std::optional<std::string>& words) { return words ? Words{*words} : Words{}; }
 };
 
 /// How long a part of a motion has gone on, as a formula of `t`.
@@ -200,25 +258,31 @@ void add_walls(const DeckBasis& basis, Deck& deck, Timeline& timeline)
         const Wall& wall = model.walls[k];
         if (std::holds_alternative<Grains>(wall.shape)) continue; // they are in the data file
         const std::string id = deck_id("wall", k, wall.name);
-        const auto region = std::visit(RegionOf{basis, basis.scene.wall[k]}, wall.shape);
-        if (!region) {
+        const auto regions = std::visit(RegionsOf{basis, basis.scene.wall[k], deck.notes}, wall.shape);
+        if (regions.empty()) {
             deck.notes.push_back(
                 std::holds_alternative<Mesh>(wall.shape)
-                    ? fmt::format("the wall '{}' is left out: LAMMPS has no walls of triangles", wall.name)
+                    ? fmt::format("the wall '{}' is left out: LAMMPS has no walls of triangles, and it is neither "
+                                  "round an axis x, y or z nor of rectangles with a level edge",
+                          wall.name)
                     : fmt::format(
                           "the wall '{}' is left out: LAMMPS has round walls along x, y and z only", wall.name));
             continue;
         }
-        const bool closed = region->starts_with("block") && region->find("open") == std::string::npos;
+        const bool closed = regions.front().starts_with("block") && regions.front().find("open") == std::string::npos;
         if (closed) deck.notes.push_back(fmt::format("the box '{}' is felt from inside only", wall.name));
         const std::string motion = motion_words(wall, id, deck.text, deck.notes);
-        deck.text += fmt::format("region {} {}{} units box\n", id, *region, motion);
-        for (const int type : basis.types.moving) {
-            const std::string fix = fmt::format("{}_{}", id, type);
-            timeline[wall.appear_at] +=
-                fmt::format("fix {} {} wall/gran/region granular {} region {}\n", fix, type_group(basis, type),
-                    contact_words(model.materials.between(type - 1, wall.material), model.physics.rolling), id);
-            if (wall.remove_at < basis.simulation.duration) timeline[wall.remove_at] += fmt::format("unfix {}\n", fix);
+        for (std::size_t r = 0; r < regions.size(); ++r) {
+            const std::string part = regions.size() > 1 ? fmt::format("{}_part{}", id, r) : id;
+            deck.text += fmt::format("region {} {}{} units box\n", part, regions[r], motion);
+            for (const int type : basis.types.moving) {
+                const std::string fix = fmt::format("{}_{}", part, type);
+                timeline[wall.appear_at] +=
+                    fmt::format("fix {} {} wall/gran/region granular {} region {}\n", fix, type_group(basis, type),
+                        contact_words(model.materials.between(type - 1, wall.material), model.physics.rolling), part);
+                if (wall.remove_at < basis.simulation.duration)
+                    timeline[wall.remove_at] += fmt::format("unfix {}\n", fix);
+            }
         }
     }
 }

@@ -129,6 +129,13 @@ Json to_json(const std::vector<PourSummary>& pours)
     return json;
 }
 
+Json to_json(const std::vector<Explanation>& explanations)
+{
+    Json json = Json::object();
+    for (const Explanation& one : explanations) json[one.about] = one.sentence;
+    return json;
+}
+
 Json to_json(const std::vector<SensorSummary>& sensors)
 {
     Json json = Json::object();
@@ -192,7 +199,8 @@ void write_summary(const std::filesystem::path& path, const RunSummary& summary)
 {
     const char* status = !summary.incidents.empty() ? "failed" : summary.interrupted ? "interrupted" : "done";
     const Json json = {{"status", status}, {"incidents", incidents_json(summary)}, {"version", summary.version},
-        {"scene", summary.scene}, {"title", summary.title}, {"seed", summary.seed}, {"threads", summary.threads},
+        {"scene", summary.scene}, {"title", summary.title}, {"seed", summary.seed},
+        {"explanations", to_json(summary.explanations)}, {"threads", summary.threads},
         {"time", {{"simulated", summary.simulated_time}, {"step", summary.time_step}, {"steps", summary.steps}}},
         {"ledger", to_json(summary.ledger)}, {"pours", to_json(summary.pours)}, {"sensors", to_json(summary.sensors)},
         {"error", to_json(summary.error)}, {"timing", to_json(summary.timing)}};

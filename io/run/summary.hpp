@@ -38,7 +38,6 @@ struct PourSummary {
     std::string shortfall;             ///< why fewer came in than asked; empty where none is missing
 };
 
-/// How wrong the run may be. Overlaps are in mean diameters d.
 /// What became of a momentum, in steps with the same spheres.
 struct MomentumSums {
     double from_gravity = 0.0; ///< size of the sum of what gravity gave
@@ -46,6 +45,7 @@ struct MomentumSums {
     double left_over = 0.0;    ///< sum of the sizes of what the spheres gained or lost in single steps besides
 };
 
+/// How wrong the run may be. Overlaps are in mean diameters d.
 struct ErrorSummary {
     double tolerance = 0.0; ///< on the residual
     double mean_residual = 0.0;
@@ -83,6 +83,12 @@ struct TimingSummary {
     double contact_update_rate = 0.0; ///< contact updates per CPU second of the sweeps [1/s]
 };
 
+/// One of the sentences that tell what was simulated, such as those on the step and on what is modelled.
+struct Explanation {
+    std::string about;
+    std::string sentence;
+};
+
 /// All that is left to say when a run is over.
 struct RunSummary {
     std::vector<Incident> incidents;     ///< why it failed; empty where it is done
@@ -92,6 +98,7 @@ struct RunSummary {
     std::string scene;                   ///< its name
     std::string title;
     std::int64_t seed = 0;
+    std::vector<Explanation> explanations;
     int threads = 0;
     double simulated_time = 0.0; ///< [s]
     double time_step = 0.0;      ///< [s]

@@ -6,6 +6,7 @@ import numpy
 
 from metric_panels import RUN_PANELS, Panel, sensor_panels, split_unit
 from run_page.packing import blob, pack_floats
+from run_page.sections import with_spread
 
 MOST_ROWS = 1500  # of metrics.csv; of more, the least and the greatest of some in a row are kept
 WINDOWS = 50  # a flow is the growth of the passed mass over so small a share of the run
@@ -35,7 +36,7 @@ def thinned(time, columns):
 
 
 def result_of(run, column):
-    """What the summary says of the quantity in a column: over which times, value and spread; nothing if it does not."""
+    """What the summary says of the quantity in a column, and over which times; nothing if it does not."""
     for sensor in run.scene().get("sensor", []):
         name = sensor["name"]
         if column.startswith(f"{name}_"):
@@ -44,8 +45,19 @@ def result_of(run, column):
             if result and result.get("value") is not None and "from" in sensor:
                 end = run.summary()["time"]["simulated"]
                 to = sensor.get("to", end)
-                return {"from": sensor["from"], "to": min(to, end), "value": result["value"], "spread": result.get("spread")}
+                return {"from": sensor["from"], "to": min(to, end), "value": result["value"],
+                        "told": with_spread(result["value"], result.get("spread"))}
     return None
+
+
+def result_in(run, panel):
+    """Of all curves of a chart together, each by its name where there are several."""
+    found = [(label, result) for name, label in panel.columns.items() if (result := result_of(run, name))]
+    if not found:
+        return None
+    told = ", ".join(f"{label} {one['told']}" if len(panel.columns) > 1 else one["told"] for label, one in found)
+    first = found[0][1]
+    return {"from": first["from"], "to": first["to"], "values": [one["value"] for _, one in found], "told": told}
 
 
 def pack_charts(run):
@@ -68,7 +80,7 @@ def pack_charts(run):
     packed = blob(pack_floats(numpy.array([time, *(kept[name] for name in used)])))
     listed = [{"title": panel.title, "unit": "" if panel.label == "number" else panel.label, "log": panel.scale == "log",
                "curves": [{"column": name, "label": label} for name, label in panel.columns.items() if name in columns],
-               "result": next((result for name in panel.columns if (result := result_of(run, name))), None)}
+               "result": result_in(run, panel)}
               for panel in panels]
     return {"blob": packed.key, "columns": ["time_s", *used], "rows": len(time), "panels": listed}, {packed.key: packed.data}
 

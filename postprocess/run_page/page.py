@@ -2,6 +2,7 @@
 """The page of a run: what the viewer plays, the words around it, and both as one HTML file."""
 import base64
 import json
+import re
 from pathlib import Path
 
 import numpy
@@ -64,6 +65,11 @@ def status_of(run):
     """done, failed or interrupted as the summary says; without one running, if a process holds the folder, or ended."""
     status = run.summary().get("status")
     return status if status in STATUS else "running" if run.is_going_on() else "ended"
+
+
+def unbroken(title):
+    """With the digits of 10 000 kept in one line."""
+    return re.sub(r"(?<=\d) (?=\d{3}\b)", "\u00a0", title)
 
 
 def periods(scene):
@@ -154,7 +160,7 @@ def report_body(data, picture):
 
     return f"""<header>
 <div class="kind"><span class="mark" aria-hidden="true"></span>Talus <span class="status" data-status="{data['status']}">{text(data['status_word'])}</span></div>
-<h1>{text(data['title'])}</h1>
+<h1>{text(unbroken(data['title']))}</h1>
 <p class="lead" data-section="lead">{sections['lead']}</p>
 <div data-section="incidents">{sections['incidents']}</div>
 <div data-section="results">{sections['results']}</div>

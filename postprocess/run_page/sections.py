@@ -86,20 +86,27 @@ def results(run):
     return f"<div class='cards'>{''.join(shown)}</div>{more}"
 
 
+# What a run tells of itself when it is over, in this order.
+EXPLAINED = {"model": "The run", "step": "Time step", "overlap": "Contacts", "solver": "Solver chosen", "accuracy": "Accuracy"}
+
+
 def modelled(run):
-    """Whether the scene has friction, rolling resistance and so on, a sentence each."""
-    scene = run.scene()
+    """What the run says that it models and leaves out, and the numbers of the scene for it."""
+    scene, told = run.scene(), run.summary().get("explanations", {})
     contacts, walls, world = scene.get("contact", []), scene.get("wall", []), scene.get("world", {})
 
     def range_of(key):
         values = sorted({contact.get(key, 0.0) for contact in contacts})
         return number(values[0]) if values and values[0] == values[-1] else f"{number(values[0])} to {number(values[-1])}" if values else "0"
 
-    rows = [("Friction", "Coulomb, μ = " + range_of("friction") if any(one.get("friction") for one in contacts) else "left out"),
-            ("Restitution", "Newton, e = " + range_of("restitution") if any(one.get("restitution") for one in contacts) else "left out"),
-            ("Rolling resistance", range_of("rolling_friction") if any(one.get("rolling_friction") for one in contacts) else "left out"),
-            ("Rotation", "as solid spheres" if world.get("rotation", True) else "left out"),
-            ("Gravity", ", ".join(number(float(one)) for one in world.get("gravity", [])) + " m/s²")]
+    rows = [(name, told[key]) for key, name in EXPLAINED.items() if told.get(key)]
+    for name, key, law in (("Friction", "friction", "Coulomb, μ = "), ("Restitution", "restitution", "Newton, e = "),
+                           ("Rolling resistance", "rolling_friction", "torque up to μᵣ N R*, μᵣ = ")):
+        if any(one.get(key) for one in contacts):
+            rows.append((name, law + range_of(key)))
+    if not world.get("rotation", True):
+        rows.append(("Rotation", "left out"))
+    rows.append(("Gravity", ", ".join(number(float(one)) for one in world.get("gravity", [])) + " m/s²"))
     moving = [wall["name"] for wall in walls if wall.get("motion")]
     pistons = [wall["name"] for wall in walls if math.isfinite(wall.get("mass", math.inf))]
     rows.append(("Walls", ", ".join(wall["name"] for wall in walls) or "none"))

@@ -40,6 +40,12 @@ function power(value) {
   return Math.abs(exponent - Math.round(exponent)) < 1e-9 ? (Math.abs(exponent) <= 2 ? short(value) : `1e${Math.round(exponent)}`) : "";
 }
 
+/** What all but the lowest hundredth are above: the first step of a run, hardly solved, must not squeeze the others. */
+function usualLow(values) {
+  const sorted = values.flat().filter((one) => one !== null).sort((a, b) => a - b);
+  return sorted[Math.floor(sorted.length / 100)];
+}
+
 /** Whole decades, of which the lowest of very many are left out. */
 export function decades(u, low, high) {
   if (!(high > 0)) return [0.1, 1];
@@ -56,19 +62,19 @@ function roomy(u, low, high) {
 
 /** A chart over time whose cursor is the clock. */
 class TimeChart {
-  /** @param columns numbers by name */
+  /** @param panel its curves have the colours 0, 1, …, unless they name others; @param columns numbers by name */
   constructor(panel, columns, clock) {
     this.clock = clock;
     this.panel = panel;
     this.columns = columns;
     this.numbers = panel.curves.map(() => h("b"));
-    const swatch = (n) => h("i", { "data-curve": n % 6 });
+    const swatch = (curve, n) => h("i", { "data-curve": (curve.colour ?? n) % 6 });
     const many = panel.curves.length > 1 || panel.curves[0].label !== panel.title;
     this.head = h("div", { class: "head" }, h("h3", {}, panel.title.charAt(0).toUpperCase() + panel.title.slice(1)), h("span", { class: "unit" }, panel.unit),
-      h("span", { class: "values" }, ...panel.curves.map((curve, n) => h("span", {}, swatch(n), many ? `${curve.label} ` : "", this.numbers[n]))));
+      h("span", { class: "values" }, ...panel.curves.map((curve, n) => h("span", {}, swatch(curve, n), many ? `${curve.label} ` : "", this.numbers[n]))));
     this.plot = h("div", { class: "plot" });
     this.note = h("p", { class: "note", hidden: !panel.result });
-    if (panel.result) this.note.textContent = `Shaded: what was averaged, ${short(panel.result.from)} to ${short(panel.result.to)} s; ${short(panel.result.value)}${panel.result.spread ? ` ± ${Number(panel.result.spread.toPrecision(2))}` : ""} ${panel.unit}`;
+    if (panel.result) this.note.textContent = `Shaded: what was averaged, ${short(panel.result.from)} to ${short(panel.result.to)} s; ${panel.result.told} ${panel.unit}`;
     this.element = h("figure", { class: "chart" }, this.head, this.plot, this.note);
   }
 
@@ -81,15 +87,16 @@ class TimeChart {
     const data = [Array.from(this.columns.time_s), ...(panel.log ? series.map(positive) : series)];
     const empty = panel.log && data.slice(1).every((one) => one.every((value) => value === null));
     const log = panel.log && !empty;
+    const low = log && usualLow(data.slice(1));
     this.data = data;
     const u = new uPlot({
       width,
       height: HEIGHT,
       legend: { show: false },
       cursor: { drag: { setScale: false, x: false, y: false }, points: { show: false }, x: false, y: false },
-      scales: { x: { time: false, range: () => [this.clock.from, this.clock.to] }, y: log ? { distr: 3, range: decades } : { range: roomy } },
+      scales: { x: { time: false, range: () => [this.clock.from, this.clock.to] }, y: log ? { distr: 3, range: (u, least, greatest) => decades(u, low, greatest) } : { range: roomy } },
       axes: axes(log),
-      series: [{}, ...panel.curves.map((curve, n) => ({ stroke: curveColour(n), width: 1.5, points: { show: false }, dash: n > 2 ? [6, 3] : undefined }))],
+      series: [{}, ...panel.curves.map((curve, n) => ({ stroke: curveColour(curve.colour ?? n), width: 1.5, points: { show: false }, dash: n > 2 ? [6, 3] : undefined }))],
       hooks: { drawAxes: [(u) => this.shade(u)], ready: [(u) => this.putCursor(u)] },
     }, data, this.plot);
     dragMovesClock(u.over, (event) => u.posToVal(event.clientX - u.over.getBoundingClientRect().left, "x"), this.clock);
@@ -101,7 +108,7 @@ class TimeChart {
     if (this.u) this.draw(this.width);
   }
 
-  /** The steady part, with its mean and spread. */
+  /** The steady part, with its means. */
   shade(u) {
     const { result } = this.panel;
     if (!result) return;
@@ -110,13 +117,15 @@ class TimeChart {
     pen.save();
     pen.fillStyle = schemeColour("band");
     pen.fillRect(x0, u.bbox.top, x1 - x0, u.bbox.height);
-    const y = u.valToPos(result.value, "y", true);
     pen.strokeStyle = schemeColour("ink");
     pen.setLineDash([4, 4]);
     pen.lineWidth = devicePixelRatio;
     pen.beginPath();
-    pen.moveTo(x0, y);
-    pen.lineTo(x1, y);
+    for (const value of result.values) {
+      const y = u.valToPos(value, "y", true);
+      pen.moveTo(x0, y);
+      pen.lineTo(x1, y);
+    }
     pen.stroke();
     pen.restore();
   }

@@ -130,7 +130,7 @@ export class CompareView {
         const values = columns[n][panel.column];
         if (!values) return;
         all[`${n}`] = resampled(time, columns[n].time_s, values);
-        curves.push({ column: `${n}`, label: run.label });
+        curves.push({ column: `${n}`, label: run.label, colour: n }); // each run has one colour on the whole page
       });
       if (curves.length) this.charts.addTime({ title: panel.title, unit: panel.unit, log: panel.log, curves, result: null }, all);
     }

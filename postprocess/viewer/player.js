@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-import { categoryBytes, colourings, CATEGORIES, RAMP_NAMES, rampBytes, rgb, short } from "./colours.js";
+import { categoryBytes, colourings, CATEGORIES, RAMP_NAMES, rampBytes, rgb, short, UNKNOWN } from "./colours.js";
 import { button, h, schemeColour, tell } from "./dom.js";
 import { saveFilm, savePicture } from "./save.js";
 import { Stage } from "./stage.js";
@@ -17,9 +17,10 @@ export class Player extends EventTarget {
     this.picked = -1;
     this.canvas = h("canvas", { tabindex: "0", "aria-label": "The grains. Drag to turn, wheel or pinch to zoom, right button or two fingers to move, click a grain for its numbers." });
     this.legend = h("div", { class: "legend" });
+    this.unknown = h("div", { class: "legend", hidden: true }, h("i", { style: `background:${UNKNOWN}` }), "not known yet");
     this.caption = h("div", { class: "time", "aria-live": "off" });
     this.card = h("aside", { class: "grain", hidden: true, "aria-label": "A grain" });
-    this.frame = h("div", { class: "frame" }, this.canvas, h("div", { class: "corner" }, this.caption, this.legend), this.card);
+    this.frame = h("div", { class: "frame" }, this.canvas, h("div", { class: "corner" }, this.caption, this.legend, this.unknown), this.card);
     place.append(this.frame);
     this.stage = new Stage(this.canvas, () => this.dispatchEvent(new Event("view")));
     this.stage.controls.enableZoom = false; // the page scrolls over it until it is clicked
@@ -89,6 +90,7 @@ export class Player extends EventTarget {
       stage.spheres.mark(this.picked);
       this.drawPath();
     }
+    this.unknown.hidden = !recording.isUnknown(this.colouring, f < 0.5 || k + 1 === recording.length ? k : k + 1);
     stage.spheres.mixing = f;
     stage.spheres.material.uniforms.shrink.value = this.options.chains ? 0.22 : 1;
     stage.spheres.material.uniforms.fade.value = this.options.chains ? 0.85 : 0;

@@ -197,6 +197,12 @@ export class Recording {
     return values;
   }
 
+  /** Whether there is a grain in frame k that a colouring has no value for, as of one that just came in. */
+  isUnknown(colouring, k) {
+    const { there } = this.frame(k);
+    return this.values(colouring, k).some((value, i) => there[i] && Number.isNaN(value));
+  }
+
   /** The slot of a grain by its id; −1: it is in no frame. */
   slotOf(id) {
     let low = 0;

@@ -124,7 +124,7 @@ export class RunView {
     for (const sensor of data.heaps) {
       const isHeap = sensor.kind === "repose";
       this.charts.addPlain({
-        title: `${sensor.name}: surface`, unit: "m", across: isHeap ? "distance from the axis [m]" : "along [m]",
+        title: `Profile of ${sensor.name}`, unit: "m", across: isHeap ? "distance from the axis [m]" : "along [m]",
         curves: [{ label: "surface", dots: true }, { label: "fit" }],
         note: isHeap ? "Means of the highest grains in rings a diameter wide; the line is fitted between 20 and 80 % of the height." : "Means of the highest grains in strips a diameter wide, with the line through them.",
         make: keep((k, recording) => {

@@ -46,7 +46,7 @@ export function heapProfile(recording, k, sensor) {
   const speeds = recording.speeds(k);
   const tops = [];
   forGrains(recording, k, (place, slot, i) => {
-    if (speeds[i] > fast) return;
+    if (!(speeds[i] <= fast) && recording.length > 1) return; // nor what just came in, whose speed is not known
     const x = place.map((one, axis) => one - base[axis]);
     const height = dot(x, up) + recording.radii[slot];
     const [across, along] = [dot(x, e1), dot(x, e2)];

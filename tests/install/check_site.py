@@ -3,7 +3,7 @@
 """Builds the site and follows its links: check_site.py CMAKE BUILD
 
 Sphinx fails on a link between pages that leads nowhere; here the pages themselves are looked at: every link and picture
-is there, nothing is fetched from the network, and the index of the search can be read from the disk.
+is there, nothing is fetched from the network, and scripts, styles and the index of the search can be read from the disk.
 """
 import re
 import subprocess
@@ -50,6 +50,12 @@ def main():
                 faults.append(f"{path}: {link} is not there")
             elif parts.fragment and target in pages and unquote(parts.fragment) not in pages[target].anchors:
                 faults.append(f"{path}: {link} has no such place")
+    for script in html.glob("_static/scripts/*.js"):
+        if re.search(r"^(import|export) ", script.read_text(), re.M):
+            faults.append(f"{script} is a module, which browsers do not load from the disk")
+    for styles in html.glob("_static/**/*.css"):
+        if re.search(r"@import|url\(/", styles.read_text()):
+            faults.append(f"{styles} asks for a file that is not beside it")
     index = (html / "searchindex.js").read_text()
     if not index.startswith("Search.setIndex(") or not re.search(r'\brestitut\b', index):
         faults.append("searchindex.js does not have the word restitution")

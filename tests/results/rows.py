@@ -223,5 +223,6 @@ TABLES = [
           ("build/talus dump --force hopper --set contact.0.friction=0 --set contact.1.friction=0 --at 0.6 -o "
            "build/frictionless_bed.hdf5", "build/talus dump --force hopper --at 2.0 -o build/flow.hdf5",
            "build/talus dump --force pile_plain --at 4.5 -o build/pile.hdf5")),
+    Table("report_page", "tests/benchmarks/report_page.py", ROOT / "tests/results/report_page.md", 8),
     Table("fuzz", "tests/run fuzz 600", ROOT / "tests/results/fuzz.md", 50),
 ]

@@ -8,6 +8,7 @@ need nothing from outside, names stay text, and what is not there is refused.
 Exit codes: 0 all is well, 1 it is not.
 """
 import base64
+import html
 import json
 import shutil
 import subprocess
@@ -117,6 +118,9 @@ def problems_of_text(run, page):
             yield f"the name {wanted} does not come through"
     if page.title != f"{run.title()} · Talus":
         yield f"the page has the title {page.title}"
+    for told in run.summary()["explanations"].values():
+        if html.escape(told) not in page.data()["sections"]["modelled"]:
+            yield f"what the run tells of itself does not come through: {told}"
     if page.data()["status"] != "done":
         yield "the run is not said to be done"
 

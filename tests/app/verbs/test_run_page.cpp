@@ -16,6 +16,18 @@ TEST_CASE("a run with --report ends with a page, and names it", "[app][page]")
     CHECK_THAT(place.read("out/report.html"), StartsWith("<!doctype html>"));
 }
 
+TEST_CASE("a run that a signal stops has its page too, and keeps its exit code", "[app][page]")
+{
+    const Workplace place;
+    place.write("scene.toml", beads_in_a_box);
+    const Outcome outcome = place.talus_until(
+        "out/frames/particles_000005.vtp", "INT", "run scene.toml -o out --until 1000 --threads 1 --report");
+    CHECK(outcome.exit_code == 130);
+    CHECK_THAT(outcome.err, StartsWith("stopped by SIGINT") && Contains("talus resume out"));
+    CHECK_THAT(outcome.out, Contains("page: out/report.html"));
+    CHECK_THAT(place.read("out/report.html"), Contains("\"status\": \"interrupted\""));
+}
+
 TEST_CASE("where no page can be made the run keeps its exit code, and one sentence tells it", "[app][page]")
 {
     const Workplace place;
@@ -23,7 +35,7 @@ TEST_CASE("where no page can be made the run keeps its exit code, and one senten
     place.write("out/report.html", "notes of my own");
     const Outcome outcome = place.talus("resume out --until 0.06 --threads 1 --quiet --report");
     CHECK(outcome.exit_code == 0);
-    CHECK_THAT(outcome.err, StartsWith("the run is complete, but has no page: ") && Contains("is no page of Talus"));
+    CHECK_THAT(outcome.err, StartsWith("the run has no page: ") && Contains("is no page of Talus"));
     CHECK(line_of(outcome.err + "|", "|") == 2);
     CHECK(place.read("out/report.html") == "notes of my own");
 }
