@@ -20,7 +20,7 @@ void end_at(double time, Course& course)
 
 void end_at(double time, auto& part)
 {
-    part.span.to = std::clamp(time, part.span.from, part.span.to);
+    part.span.to = std::min(part.span.to, time);
 }
 
 /// What is left of a motion that ends at this time, where it has come to.
@@ -81,7 +81,7 @@ void Interventions::drive(Model& model, std::size_t wall, const Vec3& velocity, 
 {
     any = true;
     auto found = std::ranges::find(drives_, wall, &Drive::wall);
-    if (found == drives_.end()) found = drives_.insert(found, {wall, time, {}, model.walls[wall].motion});
+    if (found == drives_.end()) found = drives_.insert(found, Drive{wall, time, {}, model.walls[wall].motion});
     turn_to(found->ways, velocity, time);
     found->apply(model);
 }
@@ -90,7 +90,7 @@ void Interventions::load(Model& model, std::size_t piston, double force)
 {
     any = true;
     auto found = std::ranges::find(loads_, piston, &Load::piston);
-    if (found == loads_.end()) found = loads_.insert(found, {piston, force, model.pistons[piston].load});
+    if (found == loads_.end()) found = loads_.insert(found, Load{piston, force, model.pistons[piston].load});
     found->force = force;
     found->apply(model);
 }

@@ -18,8 +18,8 @@ struct Simulation;
 class Interventions
 {
 public:
-    bool any = false;             ///< of any kind, spheres put in and own forces included
-    std::int64_t taken_out = 0;   ///< spheres
+    bool any = false;           ///< of any kind, spheres put in and own forces included
+    std::int64_t taken_out = 0; ///< spheres
 
     /// From now on a wall that is no piston moves at this velocity [m/s], and no more as its scene says.
     void drive(Model& model, std::size_t wall, const Vec3& velocity, double time);

@@ -34,7 +34,7 @@ template <class Number, class Value> py::array by_id(Session& session, Value&& v
     py::array_t<Number> array(static_cast<py::ssize_t>(order.size()));
     Number* out = array.mutable_data();
     for (const std::size_t i : order) *out++ = static_cast<Number>(value(i));
-    return std::move(array);
+    return array;
 }
 
 template <class Value> py::array vectors_by_id(Session& session, Value&& value)
@@ -46,7 +46,7 @@ template <class Value> py::array vectors_by_id(Session& session, Value&& value)
         const Vec3 vector = value(i);
         out = std::copy(vector.data(), vector.data() + 3, out);
     }
-    return std::move(array);
+    return array;
 }
 
 void write(const Vec3& vector, double* out)
@@ -77,8 +77,8 @@ py::array copy_of(Session& session, const std::string& name)
 py::array view_of(Session& session, const std::string& name)
 {
     const State& state = session.now().state;
-    const auto keeper = py::capsule(
-        new std::shared_ptr<Lease>(session.lease()), [](void* lease) { delete static_cast<std::shared_ptr<Lease>*>(lease); });
+    const auto keeper = py::capsule(new std::shared_ptr<Lease>(session.lease()),
+        [](void* lease) { delete static_cast<std::shared_ptr<Lease>*>(lease); });
     const auto count = static_cast<py::ssize_t>(state.count());
     const auto array = [&]<class Number>(const Number* first, std::size_t stride, bool vectors) -> py::array {
         std::vector<py::ssize_t> shape = {count}, strides = {static_cast<py::ssize_t>(stride)};
@@ -88,7 +88,7 @@ py::array view_of(Session& session, const std::string& name)
         }
         py::array_t<Number> view(shape, strides, first, keeper);
         view.attr("flags").attr("writeable") = false;
-        return std::move(view);
+        return view;
     };
     const Motion* motion = state.motion.data();
     if (name == "positions") return array(count ? state.position[0].data() : nullptr, sizeof(Vec3), true);

@@ -86,7 +86,8 @@ void set_forces(Session& session, const std::vector<std::int64_t>& ids, const Nu
     std::vector<std::size_t> spheres;
     for (const std::int64_t id : ids) spheres.push_back(session.index_of(id));
     const bool has_shape = forces.ndim() == 2 && forces.shape(0) == static_cast<py::ssize_t>(ids.size());
-    if (!has_shape || forces.shape(1) != 3) throw std::invalid_argument("there must be a force of three numbers for each id");
+    if (!has_shape || forces.shape(1) != 3)
+        throw std::invalid_argument("there must be a force of three numbers for each id");
     Simulation& simulation = session.change();
     for (std::size_t k = 0; k < ids.size(); ++k) {
         const double* force = forces.data(static_cast<py::ssize_t>(k), 0);
@@ -94,19 +95,21 @@ void set_forces(Session& session, const std::vector<std::int64_t>& ids, const Nu
     }
 }
 
-std::int64_t add_sphere(Session& session, const Numbers& position, double diameter,
-    const std::string& material, const Numbers& velocity)
+std::int64_t add_sphere(
+    Session& session, const Numbers& position, double diameter, const std::string& material, const Numbers& velocity)
 {
     const Vec3 x = vector_from(position, "a position"), v = vector_from(velocity, "a velocity");
     const Model& model = session.now().model;
     if (!(diameter >= model.min_diameter * (1 - 1e-9) && diameter <= model.max_diameter * (1 + 1e-9)))
-        throw std::invalid_argument(fmt::format("a diameter must be from {:.6g} to {:.6g} m, which the scene's own have",
-            model.min_diameter, model.max_diameter));
+        throw std::invalid_argument(
+            fmt::format("a diameter must be from {:.6g} to {:.6g} m, which the scene's own have", model.min_diameter,
+                model.max_diameter));
     if (!model.world.contains(x)) throw std::invalid_argument("a position must be inside the world");
     const auto names = names_of(model.materials.list);
     const auto found = std::ranges::find(names, material);
     if (found == names.end())
-        throw std::out_of_range(fmt::format("there is no material '{}'; there is {}", material, fmt::join(names, ", ")));
+        throw std::out_of_range(
+            fmt::format("there is no material '{}'; there is {}", material, fmt::join(names, ", ")));
     Simulation& simulation = session.change();
     return simulation.state.id[put_in(simulation, x, diameter, static_cast<int>(found - names.begin()), v)];
 }
@@ -144,23 +147,35 @@ void bind_report(py::module_& module)
 {
     using Report = StepReport;
     py::class_<Report>(module, "StepReport", "What a step tells of itself.")
-        .def_property_readonly("sub_steps", [](const Report& r) { return r.sub_steps; }, "into which it was split")
+        .def_property_readonly(
+            "sub_steps", [](const Report& r) { return r.sub_steps; }, "into which it was split")
         .def_property_readonly("sweeps", [](const Report& r) { return r.solve.sweeps; })
         .def_property_readonly("residual", [](const Report& r) { return r.solve.residual; })
-        .def_property_readonly("converged", [](const Report& r) { return r.solve.converged; }, "residual <= tolerance")
+        .def_property_readonly(
+            "converged", [](const Report& r) { return r.solve.converged; }, "residual <= tolerance")
         .def_property_readonly("contacts", [](const Report& r) { return r.contacts.count; })
-        .def_property_readonly("overlapping", [](const Report& r) { return r.contacts.overlapping; }, "contacts")
-        .def_property_readonly("worst_overlap", [](const Report& r) { return r.contacts.worst_overlap; }, "[m]")
-        .def_property_readonly("mean_overlap", [](const Report& r) { return r.contacts.mean_overlap(); }, "[m]")
-        .def_property_readonly("cone_violation", [](const Report& r) { return r.outcome.cone_violation; }, "[N s]")
-        .def_property_readonly("kinetic_energy", [](const Report& r) { return r.bodies.kinetic_energy; }, "[J]")
-        .def_property_readonly("potential_energy", [](const Report& r) { return r.bodies.potential_energy; }, "[J]")
-        .def_property_readonly("contact_energy", [](const Report& r) { return r.contacts.stored_energy; },
+        .def_property_readonly(
+            "overlapping", [](const Report& r) { return r.contacts.overlapping; }, "contacts")
+        .def_property_readonly(
+            "worst_overlap", [](const Report& r) { return r.contacts.worst_overlap; }, "[m]")
+        .def_property_readonly(
+            "mean_overlap", [](const Report& r) { return r.contacts.mean_overlap(); }, "[m]")
+        .def_property_readonly(
+            "cone_violation", [](const Report& r) { return r.outcome.cone_violation; }, "[N s]")
+        .def_property_readonly(
+            "kinetic_energy", [](const Report& r) { return r.bodies.kinetic_energy; }, "[J]")
+        .def_property_readonly(
+            "potential_energy", [](const Report& r) { return r.bodies.potential_energy; }, "[J]")
+        .def_property_readonly(
+            "contact_energy", [](const Report& r) { return r.contacts.stored_energy; },
             "in the springs of the contacts, when the step began [J]")
-        .def_property_readonly("momentum", [](const Report& r) { return array_from(r.bodies.momentum.linear); },
+        .def_property_readonly(
+            "momentum", [](const Report& r) { return array_from(r.bodies.momentum.linear); },
             "of the spheres, (3,) [N s]")
-        .def_property_readonly("fastest", [](const Report& r) { return r.bodies.fastest_speed; }, "[m/s]")
-        .def_property_readonly("long_moves", [](const Report& r) { return r.bodies.long_moves; }, "spheres over 0.1 d")
+        .def_property_readonly(
+            "fastest", [](const Report& r) { return r.bodies.fastest_speed; }, "[m/s]")
+        .def_property_readonly(
+            "long_moves", [](const Report& r) { return r.bodies.long_moves; }, "spheres over 0.1 d")
         .def("__repr__", [](const Report& r) {
             return fmt::format("<StepReport: {} contacts, {} sweeps, residual {:.2g}>", r.contacts.count,
                 r.solve.sweeps, r.solve.residual);
@@ -171,11 +186,14 @@ void bind_wall(py::module_& module)
 {
     py::class_<WallHandle>(module, "Wall", "A wall, between two steps.")
         .def_property_readonly("name", &WallHandle::name)
-        .def_property_readonly("force", [](const WallHandle& w) { return array_from(w.force()); },
+        .def_property_readonly(
+            "force", [](const WallHandle& w) { return array_from(w.force()); },
             "of the spheres on it, mean over the last step, (3,) [N]")
-        .def_property_readonly("torque", [](const WallHandle& w) { return array_from(w.torque()); },
+        .def_property_readonly(
+            "torque", [](const WallHandle& w) { return array_from(w.torque()); },
             "of the same about the origin, (3,) [N m]")
-        .def_property_readonly("position", [](const WallHandle& w) { return array_from(w.position()); },
+        .def_property_readonly(
+            "position", [](const WallHandle& w) { return array_from(w.position()); },
             "of the middle of its box, of a plane of its point, (3,) [m]")
         .def_property(
             "velocity", [](const WallHandle& w) { return array_from(w.velocity()); },
@@ -193,21 +211,31 @@ void bind_simulation(py::module_& module)
         .def(py::init(&make_session), arg("scene"), arg("text"), arg("overrides"), arg("threads"), arg("out"),
             arg("force"))
         .def(py::init(&Session::resume), arg("place"), arg("overrides"), arg("threads"))
-        .def_property_readonly("name", [](const Session& s) { return s.opened().name; }, "of the scene")
-        .def_property_readonly("time", [](Session& s) { return s.now().state.time; }, "simulated [s]")
-        .def_property_readonly("steps", [](Session& s) { return s.now().state.steps; }, "made so far")
-        .def_property_readonly("step_length", [](Session& s) { return s.now().model.time_step; }, "[s]")
-        .def_property_readonly("duration", [](Session& s) { return s.now().duration; }, "as the scene has it [s]")
-        .def_property_readonly("count", [](Session& s) { return s.now().state.count(); }, "of spheres")
-        .def_property_readonly("gravity", [](Session& s) { return array_from(s.now().model.gravity); }, "(3,) [m/s2]")
-        .def_property_readonly("touched", [](Session& s) { return s.now().interventions.any; },
+        .def_property_readonly(
+            "name", [](const Session& s) { return s.opened().name; }, "of the scene")
+        .def_property_readonly(
+            "time", [](Session& s) { return s.now().state.time; }, "simulated [s]")
+        .def_property_readonly(
+            "steps", [](Session& s) { return s.now().state.steps; }, "made so far")
+        .def_property_readonly(
+            "step_length", [](Session& s) { return s.now().model.time_step; }, "[s]")
+        .def_property_readonly(
+            "duration", [](Session& s) { return s.now().duration; }, "as the scene has it [s]")
+        .def_property_readonly(
+            "count", [](Session& s) { return s.now().state.count(); }, "of spheres")
+        .def_property_readonly(
+            "gravity", [](Session& s) { return array_from(s.now().model.gravity); }, "(3,) [m/s2]")
+        .def_property_readonly(
+            "touched", [](Session& s) { return s.now().interventions.any; },
             "whether anything was changed from outside, now or before a resume")
         .def_property_readonly("material_names", [](Session& s) { return names_of(s.now().model.materials.list); })
-        .def_property_readonly("wall_names", [](Session& s) { return names_of(s.now().model.walls); },
-            "by the index that contacts have")
+        .def_property_readonly(
+            "wall_names", [](Session& s) { return names_of(s.now().model.walls); }, "by the index that contacts have")
         .def_property_readonly("generation", &Session::generation)
-        .def_property_readonly("report", &Session::report, py::return_value_policy::copy, "of the last step")
-        .def_property_readonly("resolved", [](const Session& s) { return resolved_scene(s.opened().scene); },
+        .def_property_readonly(
+            "report", [](Session& s) { return s.now(), s.report(); }, "of the last step")
+        .def_property_readonly(
+            "resolved", [](const Session& s) { return resolved_scene(s.opened().scene); },
             "the scene with every key written out, as TOML")
         .def("_step", [](Session& s) { s.run_until(s.now().state.time + s.now().model.time_step); })
         .def("_run_until", &Session::run_until)
@@ -221,9 +249,11 @@ void bind_simulation(py::module_& module)
         .def("_add", &add_sphere)
         .def("remove", &remove_spheres, arg("ids"), "Takes these spheres out; the ledger of the summary has them.")
         .def("contacts", &contacts_of, "Contacts of the last step that bear something, as an array of records.")
-        .def("state", [](Session& s) { return py::bytes(s.state()); },
+        .def(
+            "state", [](Session& s) { return py::bytes(s.state()); },
             "All that changes, but what sensors have seen and the statistics of the run, as bytes for restore().")
-        .def("restore", [](Session& s, const py::bytes& state) { s.restore(state); }, arg("state"),
+        .def(
+            "restore", [](Session& s, const py::bytes& state) { s.restore(state); }, arg("state"),
             "Puts back what state() gave of the same scene, perhaps under another setting.")
         .def("save", &Session::save, arg("file"), "Writes a checkpoint of its own, for resume().")
         .def("write_frame", &write_frame, arg("file"), "Writes the spheres as a .vtp file, as in the frames of a run.")

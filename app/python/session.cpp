@@ -28,7 +28,7 @@ namespace py = pybind11;
 class CtrlC
 {
 public:
-    /// @throws pybind11::error_already_set
+    /// Whether to go on; else Python's error is set.
     bool operator()()
     {
         using namespace std::chrono_literals;
@@ -36,8 +36,7 @@ public:
         if (now < next_) return true;
         next_ = now + 50ms;
         const py::gil_scoped_acquire lock;
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        return true;
+        return PyErr_CheckSignals() == 0;
     }
 
 private:
@@ -82,8 +81,8 @@ Session::Session(OpenedScene opened, int threads)
 void Session::write_into(const fs::path& folder, bool force)
 {
     const auto files = named_files(opened_.scene);
-    lock_ = std::make_unique<FolderLock>(
-        make_run_folder(folder, resolved_scene(with_copies(opened_.scene, files)), force));
+    lock_ =
+        std::make_unique<FolderLock>(make_run_folder(folder, resolved_scene(with_copies(opened_.scene, files)), force));
     copy_files(files, folder);
     loop_ = std::make_unique<RunLoop>(opened_, folder, Verbosity::quiet);
 }
@@ -92,14 +91,16 @@ std::shared_ptr<Session> Session::resume(const fs::path& place, const std::vecto
 {
     const bool is_folder = fs::is_directory(place);
     auto lock = is_folder ? std::make_unique<FolderLock>(place) : nullptr;
-    Checkpoint checkpoint = is_folder ? read_checkpoint(place, TALUS_VERSION) : read_checkpoint_file(place, TALUS_VERSION);
+    Checkpoint checkpoint =
+        is_folder ? read_checkpoint(place, TALUS_VERSION) : read_checkpoint_file(place, TALUS_VERSION);
     try {
         Archive archive(std::move(checkpoint.state));
         RunOrigin origin;
         archive(origin);
         const fs::path scene = is_folder ? place / "scene.resolved.toml" : place;
-        auto session = open_again(
-            is_folder ? read_scene(scene, overrides) : read_scene_text(origin.scene, scene, overrides), origin, threads);
+        auto session =
+            open_again(is_folder ? read_scene(scene, overrides) : read_scene_text(origin.scene, scene, overrides),
+                origin, threads);
         if (!is_folder) {
             session->put_back(archive);
             return session;
@@ -137,6 +138,7 @@ void Session::run_until(double time)
             last_ = talus::run_until(simulation, time, hooks, std::move(last_));
         }
     }
+    if (PyErr_Occurred()) throw py::error_already_set();
     if (!simulation.incident_policy.stops(report())) return;
     const auto names = names_of(simulation.model.walls);
     const auto& incidents = report().bodies.incidents;
@@ -211,8 +213,8 @@ void Session::close()
     if (!loop_) return;
     change();
     const RunEnd end = loop_->end();
-    write_summary(lock_->folder() / "summary.json",
-        summarise(opened_, loop_->statistics(), loop_->clock(), end.incidents));
+    write_summary(
+        lock_->folder() / "summary.json", summarise(opened_, loop_->statistics(), loop_->clock(), end.incidents));
     last_ = loop_->last();
     statistics_ = loop_->statistics();
     clock_ = loop_->clock();

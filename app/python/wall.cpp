@@ -34,9 +34,9 @@ WallHandle::WallHandle(std::shared_ptr<Session> session, const std::string& name
 
 WallLoad WallHandle::last_load() const
 {
+    const double h = session_->now().model.time_step;
     const auto& loads = session_->report().wall_loads;
     if (loads.empty()) return {}; // before the first step
-    const double h = session_->now().model.time_step;
     return {loads[index_].impulse / h, loads[index_].torque / h};
 }
 

@@ -17,8 +17,8 @@ namespace talus
 struct ParticleLedger {
     std::int64_t inserted = 0; ///< there at the start, and poured
     std::int64_t inside = 0;
-    std::int64_t left = 0;    ///< through an outlet
-    std::int64_t escaped = 0; ///< left the world where there is no outlet
+    std::int64_t left = 0;      ///< through an outlet
+    std::int64_t escaped = 0;   ///< left the world where there is no outlet
     std::int64_t taken_out = 0; ///< from outside (Interventions)
 
     bool closes() const { return inserted == inside + left + escaped + taken_out; }
