@@ -75,7 +75,8 @@ add_custom_target(site ${make_site} DEPENDS talus USES_TERMINAL VERBATIM)
 install(DIRECTORY ${docs}/html/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html COMPONENT site OPTIONAL
   PATTERN .buildinfo EXCLUDE PATTERN objects.inv EXCLUDE)
 
-# Debian packages, into packages/ of the build folder: talus, libtalus-dev and, where the site was built, talus-doc.
+# Debian packages, into packages/ of the build folder: talus, libtalus-dev, and, where the site and the Python module were
+# built, talus-doc and python3-talus.
 set(maintainer "The authors of Talus <maintainers@talus.invalid>") # no such address: packages for oneself
 if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL}) # as Debian's own tools have it
   set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
@@ -83,7 +84,8 @@ endif()
 set(TALUS_MAINTAINER "${maintainer}" CACHE STRING "Who answers for the packages")
 set(changelog ${PROJECT_BINARY_DIR}/changelog)
 configure_file(app/debian/changelog.in ${changelog} @ONLY)
-foreach(package IN ITEMS "talus;talus" "development;libtalus-dev" "site;talus-doc")
+foreach(package IN ITEMS "talus;talus" "development;libtalus-dev" "site;talus-doc"
+    "python;python3-talus")
   list(GET package 0 component)
   list(GET package 1 name)
   string(TOUPPER ${component} COMPONENT)
@@ -117,6 +119,17 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libcgal-dev, g++")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Granular dynamics: the core as a library
 Headers and static libraries of the step of Talus, and what CMake needs to
 find them.")
+string(REGEX MATCH "^[0-9]+\\.[0-9]+" python_version "${Python3_VERSION}")
+math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "talus (= ${PROJECT_VERSION}), python3-numpy, \
+python3 (>= ${python_version}), python3 (<< ${Python3_VERSION_MAJOR}.${next_minor})")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-vtk9")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/app/debian/python/prerm)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Granular dynamics: Talus as a Python module
+Simulations that a program makes the steps of, between which it reads and
+changes them through NumPy; and a reader of what runs left.")
 set(CPACK_DEBIAN_SITE_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_SITE_PACKAGE_ARCHITECTURE all)
 set(CPACK_COMPONENT_SITE_DESCRIPTION "Granular dynamics: documentation
@@ -126,6 +139,9 @@ set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_BINARY_DIR}/packages.cmake)
 file(CONFIGURE OUTPUT ${CPACK_PROJECT_CONFIG_FILE} CONTENT [[
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each has its own
 set(CPACK_COMPONENTS_ALL talus development)
+if("@TALUS_PYTHON@")
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 if(EXISTS @docs@/html/index.html)
   list(APPEND CPACK_COMPONENTS_ALL site)
 endif()
@@ -133,5 +149,8 @@ endif()
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 include(CPack)
 add_custom_command(OUTPUT ${changelog}.gz DEPENDS ${changelog} COMMAND gzip -9nkf ${changelog} VERBATIM)
-add_custom_target(deb COMMAND ${CMAKE_CPACK_COMMAND} -G DEB DEPENDS talus man ${rooms} ${changelog}.gz
+if(TALUS_PYTHON)
+  set(python_module talus_python)
+endif()
+add_custom_target(deb COMMAND ${CMAKE_CPACK_COMMAND} -G DEB DEPENDS talus man ${rooms} ${changelog}.gz ${python_module}
   USES_TERMINAL VERBATIM)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads what a run of Talus left in its folder; a run still going on, or killed, reads as far as it came.
 
+The scripts beside this file share it, and the Python package has it as talus.run.
+
 Frames are read with VTK (Debian: python3-vtk9), which is loaded only then.
 """
 import csv
@@ -21,6 +23,35 @@ class RunError(Exception):
 class Frame(NamedTuple):
     time: float  # s
     path: Path
+
+
+class Measurement(NamedTuple):
+    """What a sensor found of a quantity; the spread is the standard error of the mean unless the sensor says other."""
+
+    value: float
+    spread: float
+    unit: str
+
+
+class Spheres:
+    """The spheres of a frame, in the order of their ids: time [s], positions (n, 3) [m], ids and radii (n,), and of
+    velocities, angular_velocities, materials, forces (contacts', [N]) and coordination those that the run wrote.
+    """
+
+    NAMES = {"id": "ids", "radius": "radii", "velocity": "velocities", "angular_velocity": "angular_velocities",
+             "material": "materials", "force": "forces"}
+
+    def __init__(self, frame):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+
+        geometry = read_frame(frame)
+        points = geometry.GetPoints()
+        self.time = frame.time
+        self.positions = vtk_to_numpy(points.GetData()) if points else numpy.zeros((0, 3))
+        data = geometry.GetPointData()
+        for index in range(data.GetNumberOfArrays()):
+            array = data.GetArray(index)
+            setattr(self, self.NAMES.get(array.GetName(), array.GetName()), vtk_to_numpy(array))
 
 
 class Run:
@@ -78,6 +109,23 @@ class Run:
             raise RunError(f"{path} is damaged: {error}.") from error
         frames = [Frame(float(entry.get("timestep")), self.folder / entry.get("file")) for entry in entries]
         return sorted(frames, key=lambda frame: frame.time)
+
+    def frame(self, time=None):
+        """The spheres of the frame nearest to a time [s], or of the last.
+
+        Raises RunError where there is none.
+        """
+        frames = self.frames()
+        if not frames:
+            raise RunError(f"{self.folder} has no frames.")
+        return Spheres(frames[-1] if time is None else min(frames, key=lambda frame: abs(frame.time - time)))
+
+    def sensors(self):
+        """The results of the sensors: sensor → quantity → (value, spread, unit); empty until the run has ended."""
+        return {name: {quantity: Measurement(*(numpy.nan if found[key] is None else found[key]
+                                               for key in Measurement._fields))
+                       for quantity, found in quantities.items()}
+                for name, quantities in self.summary().get("sensors", {}).items()}
 
     def metrics(self):
         """metrics.csv: the name of each column, with its unit, and its values; a last row half written is left out."""

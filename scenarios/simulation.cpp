@@ -27,11 +27,17 @@ void let_in_and_out(Simulation& simulation)
 
 void Simulation::persist(Archive& archive)
 {
+    persist_without_sensors(archive);
+    for (const auto& sensor : sensors) archive(*sensor);
+}
+
+void Simulation::persist_without_sensors(Archive& archive)
+{
     bool rolling = model.physics.rolling; // decides which impulses are carried
     archive(rolling);
     if (rolling != model.physics.rolling) throw ArchiveError("it is of a scene with another rolling resistance");
     archive(state, network, pours, outflow, escaped);
-    for (const auto& sensor : sensors) archive(*sensor);
+    interventions.persist(archive, model);
 }
 
 bool IncidentPolicy::stops(const StepReport& report) const
@@ -55,9 +61,8 @@ PreparedStep prepare_step(Simulation& simulation)
     return prepare_step(simulation.state, simulation.network, simulation.model, {simulation.model.time_step});
 }
 
-StepReport run_until(Simulation& simulation, double time, const StepHooks& hooks)
+StepReport run_until(Simulation& simulation, double time, const StepHooks& hooks, StepReport report)
 {
-    StepReport report;
     while (!has_reached(simulation, time) && !simulation.incident_policy.stops(report)) {
         if (!report.bodies.incidents.empty())
             remove_escaped(simulation.escaped, simulation.state, simulation.network, report.bodies.incidents);

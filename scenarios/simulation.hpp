@@ -8,6 +8,7 @@
 #include "core/supply/removal.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
+#include "scenarios/interventions.hpp"
 #include "scenarios/output_choice.hpp"
 
 #include <functional>
@@ -36,6 +37,7 @@ struct Simulation {
     Outflow outflow;
     IncidentPolicy incident_policy;
     std::vector<EscapedSphere> escaped; ///< and taken out, where the scene says so
+    Interventions interventions;
     std::vector<std::unique_ptr<Sensor>> sensors;
     OutputChoice output;
     double duration = 0.0; ///< [s]
@@ -43,6 +45,9 @@ struct Simulation {
     /// All that changes in a run; the rest follows from the scene.
     /// @throws ArchiveError where what is put back is not whole, or of a scene with other kinds of impulses
     void persist(Archive& archive);
+
+    /// The same without what sensors have seen: for a simulation with other sensors.
+    void persist_without_sensors(Archive& archive);
 };
 
 /// Lets poured spheres in, takes away (every tenth step) the spheres that have been in an outlet, and advances by one
@@ -62,8 +67,9 @@ struct StepHooks {
 /// Makes steps until the simulation has reached this time, or up to the first step with an incident that stops it. What
 /// escaped and does not stop it is taken out before the next step.
 /// @param time [s]
-/// @return the report of the last step; where none was made, an empty one
-StepReport run_until(Simulation& simulation, double time, const StepHooks& hooks);
+/// @param last report of the step before, where there was one
+/// @return the report of the last step; where none was made, `last`
+StepReport run_until(Simulation& simulation, double time, const StepHooks& hooks, StepReport last = {});
 
 /// Whether the simulation is at this time, or past it, up to a thousandth of a step, for which only rounding is to
 /// blame.

@@ -30,10 +30,11 @@ std::vector<std::string> metrics_columns(const Simulation& simulation)
     return columns;
 }
 
-std::vector<bool> standing_walls(const Model& model, double time)
+/// For each wall whether it stands, and whether it moves, which one that is driven from outside begins to do.
+std::vector<std::pair<bool, bool>> standing_walls(const Model& model, double time)
 {
-    std::vector<bool> standing;
-    for (const Wall& wall : model.walls) standing.push_back(wall.stands_at(time));
+    std::vector<std::pair<bool, bool>> standing;
+    for (const Wall& wall : model.walls) standing.emplace_back(wall.stands_at(time), wall.moves());
     return standing;
 }
 
@@ -95,20 +96,36 @@ void RunLoop::go_on(Archive& checkpoint)
 
 RunEnd RunLoop::run()
 {
-    RunEnd end;
+    run_until(simulation_.duration);
+    return end();
+}
+
+void RunLoop::run_until(double time, const std::function<bool()>& go_on)
+{
     StepHooks hooks;
     hooks.before_step = [&] {
-        end.signal = stop_signal();
-        before_step(end.signal != 0 || has_reached(simulation_, simulation_.duration, 1));
-        return end.signal == 0;
+        if (go_on && !go_on()) return false;
+        signal_ = stop_signal();
+        before_step(signal_ != 0 || has_reached(simulation_, simulation_.duration, 1));
+        return signal_ == 0;
     };
     hooks.after_step = [this](const StepReport& report) { after_step(report); };
     hooks.on_phase = [this](Phase phase) { clock_.begin(phase); };
-    const StepReport last = run_until(simulation_, simulation_.duration, hooks);
+    last_ = talus::run_until(simulation_, time, hooks, std::move(last_));
+}
 
-    if (end.signal == 0) write_the_rest(last);
-    if (simulation_.incident_policy.stops(last)) {
-        end.incidents = last.bodies.incidents;
+RunEnd RunLoop::end()
+{
+    RunEnd end{{}, signal_};
+    const bool failed = simulation_.incident_policy.stops(last_);
+    if (failed || has_reached(simulation_, simulation_.duration)) {
+        write_the_rest(last_);
+    } else if (signal_ == 0) {
+        remove_escaped(simulation_.escaped, simulation_.state, simulation_.network, last_.bodies.incidents);
+        before_step(true);
+    }
+    if (failed) {
+        end.incidents = last_.bodies.incidents;
         write_checkpoint();
     }
     progress_.finish();

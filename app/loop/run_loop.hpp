@@ -13,7 +13,9 @@
 #include "scenarios/simulation.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace talus
@@ -47,6 +49,18 @@ public:
     /// Runs to the end, to the first step with incidents that stop it, or until a signal asks it to stop.
     /// @throws OutputError
     RunEnd run();
+
+    // The same in parts, for who does something of his own between steps:
+
+    /// Runs to this time [s], or as long as `go_on`, asked before each step, wants.
+    /// @throws OutputError
+    void run_until(double time, const std::function<bool()>& go_on = {});
+
+    /// Ends the run where it is: before its time with a checkpoint, as a signal would.
+    /// @throws OutputError
+    RunEnd end();
+
+    const StepReport& last() const { return last_; } ///< report of the last step; where none was made, an empty one
 
     const RunStatistics& statistics() const { return statistics_; }
     const PhaseClock& clock() const { return clock_; }
@@ -89,11 +103,13 @@ private:
     } recent_;
     double checkpoint_wall_ = 0.0;                                              ///< when the last was written [s]
     std::int64_t last_metrics_ = -1, last_particles_ = -1, last_contacts_ = -1; ///< steps after which they were written
-    std::vector<bool> standing_;                                                ///< walls in the last wall frame
+    std::vector<std::pair<bool, bool>> standing_;                               ///< walls in the last wall frame
     FrameWriter frames_;
     std::optional<MetricsFile> metrics_; ///< there as soon as the loop is made
     std::size_t lost_ = 0;               ///< spheres in lost.vtp
     std::size_t presses_told_ = 0;
+    StepReport last_;
+    int signal_ = 0; ///< that asked the run to stop
     RunStatistics statistics_;
     PhaseClock clock_;
     Progress progress_;

@@ -19,6 +19,7 @@ ParticleLedger particle_ledger(const Simulation& simulation, const std::vector<I
     ParticleLedger ledger;
     ledger.inserted = simulation.state.next_id;
     ledger.left = simulation.outflow.count;
+    ledger.taken_out = simulation.interventions.taken_out;
     const auto still_listed = std::count_if(incidents.begin(), incidents.end(),
         [](const Incident& incident) { return incident.kind == Incident::Kind::escaped && !incident.of_piston(); });
     ledger.escaped = static_cast<std::int64_t>(simulation.escaped.size()) + still_listed;
@@ -51,15 +52,15 @@ std::vector<PourSummary> summarise_pours(const Simulation& simulation)
     return pours;
 }
 
-TimingSummary summarise_timing(const RunLoop& loop)
+TimingSummary summarise_timing(const RunStatistics& statistics, const PhaseClock& clock)
 {
     TimingSummary timing;
-    timing.phases = loop.clock().phases();
+    timing.phases = clock.phases();
     for (const PhaseTime& phase : timing.phases) {
         timing.wall += phase.wall;
         timing.cpu += phase.cpu;
     }
-    timing.contact_updates = loop.statistics().contact_updates();
+    timing.contact_updates = statistics.contact_updates();
     timing.contact_update_rate = timing.contact_updates / timing.phases[static_cast<std::size_t>(RunPhase::sweeps)].cpu;
     return timing;
 }
@@ -111,8 +112,11 @@ std::string poured_of_asked(const PourSummary& pour)
 void print_ledger(const RunSummary& summary)
 {
     const ParticleLedger& ledger = summary.ledger;
-    say("  {:<28} {} inserted = {} inside + {} left through an outlet + {} escaped ({})\n", "spheres", ledger.inserted,
-        ledger.inside, ledger.left, ledger.escaped, ledger.closes() ? "closes" : "DOES NOT CLOSE: spheres were lost");
+    const std::string taken_out =
+        ledger.taken_out == 0 ? "" : fmt::format(" + {} taken out from outside", ledger.taken_out);
+    say("  {:<28} {} inserted = {} inside + {} left through an outlet + {} escaped{} ({})\n", "spheres",
+        ledger.inserted, ledger.inside, ledger.left, ledger.escaped, taken_out,
+        ledger.closes() ? "closes" : "DOES NOT CLOSE: spheres were lost");
     for (const PourSummary& pour : summary.pours)
         if (!pour.shortfall.empty())
             say("  {:<28} {} came in: {}\n", fmt::format("pour {}", pour.name), poured_of_asked(pour), pour.shortfall);
@@ -168,12 +172,14 @@ void print_timing(const RunSummary& summary)
 
 } // namespace
 
-RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const RunEnd& end)
+RunSummary summarise(const OpenedScene& opened, const RunStatistics& statistics, const PhaseClock& clock,
+    const std::vector<Incident>& incidents)
 {
     const Simulation& simulation = opened.simulation;
     RunSummary summary;
-    summary.incidents = end.incidents;
-    summary.interrupted = end.signal != 0;
+    summary.incidents = incidents;
+    summary.interrupted = incidents.empty() && !has_reached(simulation, simulation.duration);
+    summary.touched = simulation.interventions.any;
     summary.wall_names = names_of(simulation.model.walls);
     summary.version = TALUS_VERSION;
     summary.scene = opened.name;
@@ -184,12 +190,12 @@ RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const RunEn
     summary.simulated_time = simulation.state.time;
     summary.time_step = simulation.model.time_step;
     summary.steps = simulation.state.steps;
-    summary.ledger = particle_ledger(simulation, end.incidents);
+    summary.ledger = particle_ledger(simulation, incidents);
     summary.pours = summarise_pours(simulation);
     for (std::size_t k = 0; k < simulation.sensors.size(); ++k)
         summary.sensors.push_back(summarise(*simulation.sensors[k], opened.scene.sensor[k], simulation.state.time));
-    summary.error = loop.statistics().error(simulation.model);
-    summary.timing = summarise_timing(loop);
+    summary.error = statistics.error(simulation.model);
+    summary.timing = summarise_timing(statistics, clock);
     return summary;
 }
 
@@ -200,6 +206,7 @@ void print_results(const RunSummary& summary)
         : summary.interrupted      ? "interrupted"
                                    : "done",
         summary.simulated_time, summary.steps, summary.time_step);
+    if (summary.touched) say("its state was changed from outside: the scene alone does not lead to it\n");
     say("results\n");
     print_sensors(summary);
     print_ledger(summary);

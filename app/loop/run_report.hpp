@@ -8,8 +8,10 @@
 namespace talus
 {
 
-/// Puts together what is left to say of a run that is over.
-RunSummary summarise(const OpenedScene& opened, const RunLoop& loop, const RunEnd& end);
+/// Puts together what there is to say of a run that is over, or as far as it has come.
+/// @param incidents that ended it; empty where none did
+RunSummary summarise(const OpenedScene& opened, const RunStatistics& statistics, const PhaseClock& clock,
+    const std::vector<Incident>& incidents);
 
 /// Prints the summary as a table: sensors, particle ledger, error, time per phase.
 void print_results(const RunSummary& summary);

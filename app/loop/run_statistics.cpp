@@ -90,7 +90,8 @@ void RunStatistics::add(const StepReport& report, const Simulation& simulation)
     contact_updates_ += static_cast<double>(report.contacts.count) * report.solve.sweeps;
 
     const std::int64_t inserted = simulation.state.next_id;
-    const std::int64_t left = simulation.outflow.count + static_cast<std::int64_t>(simulation.escaped.size());
+    const std::int64_t left = simulation.outflow.count + static_cast<std::int64_t>(simulation.escaped.size()) +
+                              simulation.interventions.taken_out;
     same_spheres_ = inserted == inserted_ && left == left_;
     energy_.add(report, same_spheres_);
     momentum_.add(report, same_spheres_);

@@ -74,6 +74,8 @@ class Site:
             file = Path(os.path.normpath(page.parent / target))
             if file in self.pages:
                 file = self.place(file)
+            elif file.is_relative_to("app/site/pages"):
+                file = Path(file.name)
             elif (ROOT / file).is_file():
                 (self.source / file).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(ROOT / file, self.source / file)

@@ -10,30 +10,18 @@
 
 namespace talus
 {
-namespace
-{
-
-void persist_without_sensors(Archive& archive, Simulation& simulation)
-{
-    auto sensors = std::move(simulation.sensors);
-    simulation.sensors.clear();
-    archive(simulation);
-    simulation.sensors = std::move(sensors);
-}
-
-} // namespace
 
 std::string state_of(Simulation& simulation)
 {
     Archive archive;
-    persist_without_sensors(archive, simulation);
+    simulation.persist_without_sensors(archive);
     return archive.bytes();
 }
 
 void put_back(Simulation& simulation, std::string state)
 {
     Archive archive(std::move(state));
-    persist_without_sensors(archive, simulation);
+    simulation.persist_without_sensors(archive);
 }
 
 void save_state(Simulation& simulation, const std::filesystem::path& folder)

@@ -6,8 +6,25 @@ namespace talus
 
 namespace fs = std::filesystem;
 
+namespace
+{
+
+fs::path& told()
+{
+    static fs::path folder;
+    return folder;
+}
+
+} // namespace
+
+void set_own_files(const fs::path& folder)
+{
+    told() = folder;
+}
+
 fs::path own_files()
 {
+    if (!told().empty()) return told();
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
     if (!error) {

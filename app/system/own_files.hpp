@@ -10,4 +10,7 @@ namespace talus
 /// share/talus beside its own folder, wherever that was moved to; else the source tree that it was built from.
 std::filesystem::path own_files();
 
+/// Makes it this folder, for what is no program of its own: a module of Python.
+void set_own_files(const std::filesystem::path& folder);
+
 } // namespace talus

@@ -109,7 +109,7 @@ ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const CommandLine&
 {
     const auto watcher = watch_beside(line, folder);
     const RunEnd end = loop.run();
-    const RunSummary summary = summarise(opened, loop, end);
+    const RunSummary summary = summarise(opened, loop.statistics(), loop.clock(), end.incidents);
     write_summary(folder / "summary.json", summary);
     if (line.verbosity != Verbosity::quiet) print_results(summary);
     print_incidents(summary, folder, opened.report.world);

@@ -162,4 +162,14 @@ StateSurvey survey_state(const State& state, const Model& model, const StepLengt
     return all;
 }
 
+void survey_own_forces(StateSurvey& survey, const State& state, double h)
+{
+    for (std::size_t i = 0; i < state.own_force.size(); ++i) {
+        const Vec3 impulse = h * state.own_force[i];
+        const Vec3 way = h * state.motion[i].velocity;
+        survey.load_work += state.own_force[i].dot(way);
+        survey.from_gravity += Momentum{impulse, (state.position[i] - way).cross(impulse)};
+    }
+}
+
 } // namespace talus

@@ -31,9 +31,9 @@ struct StateSurvey {
     double kinetic_energy = 0.0;     ///< of the new velocities, pistons included, as in the rest [J]
     double potential_energy = 0.0;   ///< −Σ m g·x of the new positions, periodic axes left out [J]
     double gravity_work = 0.0;       ///< of gravity along periodic axes in the step [J]
-    double load_work = 0.0;          ///< that loads did on pistons in the step [J]
+    double load_work = 0.0;          ///< that loads did on pistons, and own forces on spheres, in the step [J]
     Momentum momentum;               ///< of the spheres, with the new velocities in the new places
-    Momentum from_gravity;           ///< what gravity gave them in the step, in the places where they were
+    Momentum from_gravity;           ///< what gravity and own forces gave them in the step, where they were
     double fastest_speed = 0.0;      ///< [m/s]
     std::size_t long_moves = 0;      ///< spheres, and pistons, that move more than 0.1 d in a whole step at their speed
     std::vector<Incident> incidents; ///< in storage order, pistons last; empty in every healthy step
@@ -44,5 +44,8 @@ struct StateSurvey {
 
 /// @pre the step has been made; load_work is not known here
 StateSurvey survey_state(const State& state, const Model& model, const StepLength& step);
+
+/// Adds work and momentum of the spheres' own forces in a step of length h [s] that has been made.
+void survey_own_forces(StateSurvey& survey, const State& state, double h);
 
 } // namespace talus

@@ -56,6 +56,13 @@ void add_gravity(std::vector<Motion>& motion, const Vec3& gravity, double h)
     for (std::size_t i = 0; i < motion.size(); ++i) motion[i].velocity += h * gravity;
 }
 
+/// v⁽¹⁾ ← v⁽¹⁾ + h f / m for the spheres' own forces.
+void add_own_forces(State& state, double h)
+{
+    for (std::size_t i = 0; i < state.own_force.size(); ++i)
+        state.motion[i].velocity += h * state.motion[i].inverse_mass * state.own_force[i];
+}
+
 /// x ← x + h v. Spheres are round: their orientation is not kept. What does not fit into the digits of x waits for the
 /// next step (Kahan's sum): at 1e6 diameters from the origin they end at 1e-10, and a sphere at constant speed would
 /// lose half of that in every step, always the same way.
@@ -175,6 +182,7 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     // Then the impulses of the last step: v ← v + M⁻¹ Gᵀ λ⁰.
     enter(Phase::warm_start);
     add_gravity(state.motion, model.gravity, h);
+    add_own_forces(state, h);
     double warm_size = apply_warm_start(network, pistons, state.motion, model.physics);
     // The impulse of an impact does not grow with the step: it must not loosen the measure of the others.
     if (prepared.impulse_scale > 1.0) warm_size /= prepared.impulse_scale * prepared.impulse_scale;
@@ -220,6 +228,7 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     report.outcome = carry_impulses(network, state, model, h);
     report.bodies = survey_state(state, model, step);
     report.bodies.load_work = load_work;
+    survey_own_forces(report.bodies, state, h);
     for (Incident& wall : walls_inside) report.bodies.incidents.push_back(std::move(wall));
     if (report.outcome.newly_jammed > 0)
         for (Incident& press : find_presses(network, state, model)) report.bodies.incidents.push_back(std::move(press));

@@ -31,6 +31,7 @@ std::size_t add_sphere(State& state, const Vec3& position, double radius, double
     state.id.push_back(state.next_id++);
     state.last_wall.push_back(-1);
     state.leaving.push_back(0);
+    if (!state.own_force.empty()) state.own_force.push_back(Vec3::Zero());
     return state.count() - 1;
 }
 
@@ -43,6 +44,7 @@ void renumber_spheres(State& state, const std::vector<std::int32_t>& new_index, 
     renumber(state.id, new_index, new_count);
     renumber(state.last_wall, new_index, new_count);
     renumber(state.leaving, new_index, new_count);
+    if (!state.own_force.empty()) renumber(state.own_force, new_index, new_count);
 }
 
 } // namespace talus

@@ -38,6 +38,7 @@ struct State {
     std::vector<std::int64_t> id;        ///< what the user sees: 0, 1, … in order of insertion
     std::vector<std::int32_t> last_wall; ///< index of the wall touched last, −1 for none
     std::vector<std::uint8_t> leaving;   ///< 1 once the centre has been inside an outlet
+    std::vector<Vec3> own_force;         ///< that acts besides gravity and contacts [N]; empty: none on any
 
     std::vector<PistonState> pistons; ///< in the order of Model::pistons
 
@@ -53,8 +54,8 @@ struct State {
 
     void persist(Archive& archive)
     {
-        archive(position, position_rest, motion, material, id, last_wall, leaving, pistons, time, steps, next_id,
-            inserted_mass);
+        archive(position, position_rest, motion, material, id, last_wall, leaving, own_force, pistons, time, steps,
+            next_id, inserted_mass);
     }
 };
 

@@ -101,10 +101,24 @@ std::string read_state(const fs::path& path, const std::string& version)
 
 } // namespace
 
+void write_checkpoint_file(const fs::path& file, const std::string& version, const std::string& state)
+{
+    write_atomically(file, {magic, header_bytes(version, state), state});
+}
+
+Checkpoint read_checkpoint_file(const fs::path& file, const std::string& version)
+{
+    try {
+        return {read_state(file, version), file, ""};
+    } catch (const Unusable& reason) {
+        throw InputError(fmt::format("{}: {}", file.string(), reason.what()));
+    }
+}
+
 void write_checkpoint(const fs::path& folder, const std::string& version, const std::string& state)
 {
     const fs::path next = folder / "checkpoint.next";
-    write_atomically(next, {magic, header_bytes(version, state), state});
+    write_checkpoint_file(next, version, state);
     // A crash between the two leaves the one before, which is then the newest.
     std::error_code none_before;
     fs::rename(folder / latest, folder / previous, none_before);

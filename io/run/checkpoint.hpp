@@ -25,4 +25,10 @@ void write_checkpoint(const std::filesystem::path& folder, const std::string& ve
 /// @throws InputError where there is none, or none that can be used, with the reason
 Checkpoint read_checkpoint(const std::filesystem::path& folder, const std::string& version);
 
+/// The same under a name of its own, alone. @throws OutputError
+void write_checkpoint_file(const std::filesystem::path& file, const std::string& version, const std::string& state);
+
+/// @throws InputError where the file cannot be used
+Checkpoint read_checkpoint_file(const std::filesystem::path& file, const std::string& version);
+
 } // namespace talus

@@ -109,6 +109,18 @@ void add_particle_arrays(vtkPointData& data, const Simulation& simulation, const
         add_integers(data, "coordination", count, [&](std::size_t k) { return loads[shown[k]].contacts; });
 }
 
+vtkNew<vtkPolyData> particles_of(const Simulation& simulation)
+{
+    const State& state = simulation.state;
+    const std::vector<std::size_t> shown = shown_spheres(state, simulation.output);
+    const std::size_t count = shown.size();
+    vtkNew<vtkPolyData> geometry;
+    set_points(*geometry, count, [&](std::size_t k) { return state.position[shown[k]]; });
+    add_point_cell(*geometry, count);
+    add_particle_arrays(*geometry->GetPointData(), simulation, shown);
+    return geometry;
+}
+
 void add_contact_arrays(
     vtkCellData& data, const std::vector<std::string>& arrays, const std::vector<ContactLine>& lines)
 {
@@ -134,14 +146,12 @@ FrameWriter::FrameWriter(std::filesystem::path folder) : folder_(std::move(folde
 
 void FrameWriter::write_particles(const Simulation& simulation)
 {
-    const State& state = simulation.state;
-    const std::vector<std::size_t> shown = shown_spheres(state, simulation.output);
-    const std::size_t count = shown.size();
-    vtkNew<vtkPolyData> geometry;
-    set_points(*geometry, count, [&](std::size_t k) { return state.position[shown[k]]; });
-    add_point_cell(*geometry, count);
-    add_particle_arrays(*geometry->GetPointData(), simulation, shown);
-    add_frame(particles_, state.time, *geometry);
+    add_frame(particles_, simulation.state.time, *particles_of(simulation));
+}
+
+void write_particles(const Simulation& simulation, const std::filesystem::path& file)
+{
+    write_atomically(file, vtp_bytes(*particles_of(simulation), simulation.state.time));
 }
 
 void FrameWriter::write_contacts(const Simulation& simulation)

@@ -65,6 +65,9 @@ private:
     void cut_back(const Series& series) const;
 };
 
+/// Writes the spheres as a frame has them into a file that no list knows. @throws OutputError
+void write_particles(const Simulation& simulation, const std::filesystem::path& file);
+
 /// Writes lost.vtp into a run's folder: the spheres that escaped, each as it was then. Without any the file is removed.
 /// @throws OutputError
 void write_lost(const std::filesystem::path& folder, const std::vector<EscapedSphere>& escaped);

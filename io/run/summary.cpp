@@ -102,17 +102,23 @@ Json to_json(const Incident& incident, const std::vector<std::string>& wall_name
     return json;
 }
 
-Json incidents_json(const RunSummary& summary)
+Json to_json(const std::vector<Incident>& incidents, const std::vector<std::string>& wall_names)
 {
     Json json = Json::array();
-    for (const Incident& incident : summary.incidents) json.push_back(to_json(incident, summary.wall_names));
+    for (const Incident& incident : incidents) json.push_back(to_json(incident, wall_names));
     return json;
+}
+
+/// A title may hold bytes that are not UTF-8 text; they must not cost the summary of a finished run.
+std::string text_of(const Json& json)
+{
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Json to_json(const ParticleLedger& ledger)
 {
     return {{"inserted", ledger.inserted}, {"inside", ledger.inside}, {"left", ledger.left},
-        {"escaped", ledger.escaped}, {"closes", ledger.closes()}};
+        {"escaped", ledger.escaped}, {"taken_out", ledger.taken_out}, {"closes", ledger.closes()}};
 }
 
 template <class Value> Json or_null(const std::optional<Value>& value)
@@ -195,17 +201,26 @@ std::string describe(const Incident& incident, const std::vector<std::string>& w
         sentence_of(incident.kind), x.x(), x.y(), x.z(), incident.speed, touched);
 }
 
-void write_summary(const std::filesystem::path& path, const RunSummary& summary)
+std::string incidents_text(const std::vector<Incident>& incidents, const std::vector<std::string>& wall_names)
+{
+    return text_of(to_json(incidents, wall_names));
+}
+
+std::string summary_text(const RunSummary& summary)
 {
     const char* status = !summary.incidents.empty() ? "failed" : summary.interrupted ? "interrupted" : "done";
-    const Json json = {{"status", status}, {"incidents", incidents_json(summary)}, {"version", summary.version},
+    return text_of({{"status", status}, {"touched", summary.touched},
+        {"incidents", to_json(summary.incidents, summary.wall_names)}, {"version", summary.version},
         {"scene", summary.scene}, {"title", summary.title}, {"seed", summary.seed},
         {"explanations", to_json(summary.explanations)}, {"threads", summary.threads},
         {"time", {{"simulated", summary.simulated_time}, {"step", summary.time_step}, {"steps", summary.steps}}},
         {"ledger", to_json(summary.ledger)}, {"pours", to_json(summary.pours)}, {"sensors", to_json(summary.sensors)},
-        {"error", to_json(summary.error)}, {"timing", to_json(summary.timing)}};
-    // a title may hold bytes that are not UTF-8 text; they must not cost the summary of a finished run
-    write_atomically(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+        {"error", to_json(summary.error)}, {"timing", to_json(summary.timing)}});
+}
+
+void write_summary(const std::filesystem::path& path, const RunSummary& summary)
+{
+    write_atomically(path, summary_text(summary));
 }
 
 } // namespace talus

@@ -17,10 +17,11 @@ namespace talus
 struct ParticleLedger {
     std::int64_t inserted = 0; ///< there at the start, and poured
     std::int64_t inside = 0;
-    std::int64_t left = 0;    ///< through an outlet
-    std::int64_t escaped = 0; ///< left the world where there is no outlet
+    std::int64_t left = 0;      ///< through an outlet
+    std::int64_t escaped = 0;   ///< left the world where there is no outlet
+    std::int64_t taken_out = 0; ///< from outside (Interventions)
 
-    bool closes() const { return inserted == inside + left + escaped; }
+    bool closes() const { return inserted == inside + left + escaped + taken_out; }
 };
 
 struct SensorSummary {
@@ -92,7 +93,8 @@ struct Explanation {
 /// All that is left to say when a run is over.
 struct RunSummary {
     std::vector<Incident> incidents;     ///< why it failed; empty where it is done
-    bool interrupted = false;            ///< by a signal, after a checkpoint
+    bool interrupted = false;            ///< before its time, after a checkpoint
+    bool touched = false;                ///< its state was changed from outside (Interventions)
     std::vector<std::string> wall_names; ///< by which an incident names the wall touched last
     std::string version;                 ///< of Talus
     std::string scene;                   ///< its name
@@ -112,6 +114,12 @@ struct RunSummary {
 
 /// The incident as one sentence, with the sphere's id, its place, its speed and the wall that it touched last.
 std::string describe(const Incident& incident, const std::vector<std::string>& wall_names);
+
+/// The incidents as JSON, a list of what summary.json has of each.
+std::string incidents_text(const std::vector<Incident>& incidents, const std::vector<std::string>& wall_names);
+
+/// The text of summary.json.
+std::string summary_text(const RunSummary& summary);
 
 /// Writes summary.json; its keys are documented in io/README.md.
 /// @throws OutputError

@@ -24,14 +24,29 @@ scene::Scene parse_scene(const std::string& text)
     return read_tables(parse_toml(text, ""), places);
 }
 
-SceneFile read_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides)
+namespace
 {
-    toml::table root = parse_toml_file(path, "a scene file");
+
+SceneFile read_root(toml::table root, const std::filesystem::path& path, const std::vector<std::string>& overrides)
+{
     for (const std::string& key_and_value : overrides) apply_override(root, key_and_value);
     SceneFile file{{}, path, {}};
     file.scene = read_tables(root, file.places);
     read_named_files(file);
     return file;
+}
+
+} // namespace
+
+SceneFile read_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides)
+{
+    return read_root(parse_toml_file(path, "a scene file"), path, overrides);
+}
+
+SceneFile read_scene_text(
+    const std::string& text, const std::filesystem::path& path, const std::vector<std::string>& overrides)
+{
+    return read_root(parse_toml(text, path.string()), path, overrides);
 }
 
 } // namespace talus

@@ -32,6 +32,12 @@ struct SceneFile {
 /// @throws InputError
 SceneFile read_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
 
+/// The same from a text.
+/// @param path what stands for the file in sentences, and whose folder the files lie in that it names
+/// @throws InputError
+SceneFile read_scene_text(
+    const std::string& text, const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+
 /// Reads a scene from its text, the one of `resolved_scene`, without the STL files that it names.
 /// @throws InputError
 scene::Scene parse_scene(const std::string& text);
