@@ -10,4 +10,7 @@ namespace talus
 /// share/talus beside its own folder, wherever that was moved to; else the source tree that it was built from.
 std::filesystem::path own_files();
 
+/// The file of the program itself; empty where the system does not tell.
+std::filesystem::path own_program();
+
 } // namespace talus
