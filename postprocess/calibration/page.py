@@ -12,6 +12,7 @@ from sweeps.setting_text import setting_text
 
 BINS = 48  # of a density
 CLOUD = 1200  # points of a trade-off
+FEW = 150  # points of a posterior, too few for its intervals
 
 
 def density_chart(found, k, key):
@@ -93,6 +94,8 @@ def warnings_of(found):
             told.append(f"{key} is hardly told by these measurements: its interval is nearly its whole range.")
         elif low < 0.01 or high > 0.99:
             told.append(f"{key} comes close to an end of its range: a wider one may change the interval.")
+    if found.posterior.counting < FEW:
+        told.append(f"Only {found.posterior.counting:.0f} points stand for what is likely: so many unknown keys make the intervals coarse.")
     for scene, count in found.dropped.items():
         if count:
             told.append(f"{count} of the cases of {scene} {'has' if count == 1 else 'have'} no result, and {'is' if count == 1 else 'are'} left out.")

@@ -5,17 +5,18 @@ Before, every value in their ranges is as likely as any other. A measurement is 
 find on average, with the variances of its own error, of the emulator's, and of the scatter from run to run, which an
 experiment is taken to have as well, over the number of its repeats.
 
-The posterior is summed over points of a Sobol sequence in a box, which is drawn closer until enough of them count.
+The posterior is summed over points of a Sobol sequence in a box, which is drawn closer until enough of them count, or
+it cannot be: it holds every point that is not as good as impossible.
 """
 import warnings
 from dataclasses import dataclass
 
 import numpy
 
-POINTS = 2**14  # in a box
-ENOUGH = 2000  # that count
+ENOUGH = 1000  # points that count
 MOST_BOXES = 8
-NEGLIGIBLE = 12.0  # of the logarithm of the likelihood below its largest
+STUCK = 0.8  # of its volume, to which a box must become smaller
+NEGLIGIBLE = 10.0  # of the logarithm of the likelihood below its largest
 DRAWN = 3000  # points of a posterior that stand for it
 
 
@@ -48,11 +49,12 @@ def posterior(measured, emulators):
     from scipy.stats import qmc
 
     dimensions = emulators[0].places.shape[1]
+    points = 2 ** min(12 + dimensions, 17)
     low, high = numpy.zeros(dimensions), numpy.ones(dimensions)
     for box in range(MOST_BOXES):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            places = low + (high - low) * qmc.Sobol(dimensions, seed=box).random(POINTS)
+            places = low + (high - low) * qmc.Sobol(dimensions, seed=box).random(points)
         squares, logs = misfits(places, measured, emulators)
         likelihood = -0.5 * (squares + logs)
         weights = numpy.exp(likelihood - likelihood.max())
@@ -62,8 +64,11 @@ def posterior(measured, emulators):
             break
         kept = places[likelihood > likelihood.max() - NEGLIGIBLE]
         room = 0.1 * (kept.max(axis=0) - kept.min(axis=0)) + 0.02 * (high - low)
+        before = high - low
         low, high = numpy.maximum(kept.min(axis=0) - room, low), numpy.minimum(kept.max(axis=0) + room, high)
+        if numpy.prod((high - low) / before) > STUCK:
+            break
     best = int(likelihood.argmax())
     steps = (numpy.arange(DRAWN) + 0.5) / DRAWN
-    chosen = numpy.searchsorted(numpy.cumsum(weights), steps).clip(0, POINTS - 1)
+    chosen = numpy.searchsorted(numpy.cumsum(weights), steps).clip(0, points - 1)
     return Posterior(places[chosen], places[best], float(squares[best]), float(counting))

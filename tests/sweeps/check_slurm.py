@@ -79,7 +79,4 @@ def main():
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except AssertionError as error:
-        sys.exit(f"check_slurm.py: {error}")
+    main()
