@@ -4,7 +4,7 @@
 
     tests/sweeps/check_calibration.py TALUS
 
-What it finds from real runs: tests/results/calibration.py.
+What it finds from real runs: tests/results/calibration_trials.py.
 Skipped where scikit-learn is not installed.
 Exit codes: 0 all is well or skipped, 1 it is not.
 """

@@ -18,9 +18,10 @@ import tempfile
 import time
 from pathlib import Path
 
-from small_sweep import call, expanded, gathered, local_run, skip
+from small_sweep import SWEEP, call, expanded, gathered, local_run, skip
 
 PATIENCE = 300  # s
+SHORT = SWEEP.replace("seeds = 3", "seeds = 2")
 
 
 def command_of(driver, path):
@@ -48,8 +49,8 @@ def main():
     if driver != "dask" and not shutil.which(driver):
         skip(f"there is no {driver}")
     with tempfile.TemporaryDirectory() as name:
-        wanted = local_run(talus, name)
-        path = expanded(talus, name, driver)
+        wanted = local_run(talus, name, SHORT)
+        path = expanded(talus, name, driver, SHORT)
         command = [str(word) for word in command_of(driver, path)]
         kill_in_the_middle(command, path)
         if driver == "snakemake":

@@ -18,11 +18,21 @@ sys.path.insert(0, str(ROOT / "tests/support"))
 import check_viewer  # noqa: E402  found by the line above
 from check_viewer import SIZES, Browser  # noqa: E402
 
+if check_viewer.webdriver:
+    from selenium.webdriver.common.actions.action_builder import ActionBuilder
+
 PLACES = """const chart = talus.charts.list[arguments[0]];
 const box = chart.u.over.getBoundingClientRect();
 return chart.points.x.map((x, k) => [chart.points.id[k], box.left + chart.u.valToPos(x, 'x'), box.top + chart.u.valToPos(chart.points.y[k], 'y')]);"""
-MOVE = """const [chart, left, top, kind] = arguments;
-talus.charts.list[chart].u.over.dispatchEvent(new PointerEvent(kind, {bubbles: true, clientX: left, clientY: top}));"""
+
+
+def point(browser, left, top, click=False):
+    """Moves the pointer to a place of the window, as a person would."""
+    actions = ActionBuilder(browser.driver, duration=100)
+    actions.pointer_action.move_to_location(round(left), round(top))
+    if click:
+        actions.pointer_action.click()
+    actions.perform()
 
 
 def check(browser, page):
@@ -35,14 +45,14 @@ def check(browser, page):
             assert browser.run("return document.documentElement.scrollWidth <= innerWidth"), f"the page is wider than a {size}"
     browser.wait(lambda: browser.run("return Boolean(talus.charts.list[0].u)"), "no chart is drawn")
     case, left, top = browser.run(PLACES, 0)[0]
-    browser.run(MOVE, 0, left + 3, top, "pointermove")
+    point(browser, left + 3, top)
     assert browser.run("return talus.pointed") == case
     tip = browser.run("return document.querySelector('.tip').innerText")
     assert "Case 1: contact.glass-glass.friction = 0.1" in tip and "outlet · mass flow" in tip, tip
     assert browser.run("return document.querySelector('tr.pointed').dataset.case") == str(case)
     assert [entry for entry in browser.complaints() if "favicon" not in entry] == []
     assert [one for one in browser.requests() if not one.startswith("file:")] == []
-    browser.run(MOVE, 0, left + 3, top, "click")
+    point(browser, left, top, click=True)
     browser.wait(lambda: browser.driver.current_url.endswith("cases/0001/report.html"), "a click does not open the page of the run")
     browser.wait(lambda: browser.run("return document.documentElement.dataset.ready") == "all", "the page of the run is not ready")
 

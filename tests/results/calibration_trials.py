@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Calibrates against synthetic truths, and writes tests/results/calibration.md.
 
-    tests/results/calibration.py --talus build/talus [--jobs 2]
+    tests/results/calibration_trials.py --talus build/talus [--jobs 2]
 
 Friction and rolling friction are drawn from their ranges; runs with them, and with seeds of their own, stand for
 experiments, whose mean gets a random error of measurement. What the calibration makes of it is compared with what was
@@ -52,7 +52,7 @@ def make_runs(target, arguments):
         folders[name] = make_folder(sweep, arguments.out / name, arguments.talus, False)
         experiments[name] = make_folder(truth, arguments.out / truth.name, arguments.talus, False)
     if complaints := run_all(str(arguments.talus), arguments.jobs, [*folders.values(), *experiments.values()]):
-        sys.exit(f"calibration.py: {complaints[0]}")
+        sys.exit(f"calibration_trials.py: {complaints[0]}")
     return tuple({name: read_cases(folder) for name, folder in some.items()} for some in (folders, experiments))
 
 
@@ -61,7 +61,7 @@ def experiment(one, cases, trial, chance):
     here = cases[one.scene][trial * one.repeats:(trial + 1) * one.repeats]
     _, used, values = values_of(one, here)
     if len(used) < one.repeats:
-        sys.exit(f"calibration.py: an experiment of trial {trial + 1} has no {one.title}")
+        sys.exit(f"calibration_trials.py: an experiment of trial {trial + 1} has no {one.title}")
     return dataclasses.replace(one, value=float(numpy.mean(values) + chance.normal(0, one.error)))
 
 
@@ -89,7 +89,7 @@ def page(target, rows, counts, cpu, runs, widths):
     each = "".join(f"- `{key}`: {count} of {len(rows)}; the intervals are {width:.2g} of its range wide on average\n" for key, count, width in zip(keys, counts[:-1], widths))
     return f"""# Calibration against synthetic truths
 
-Written by `tests/results/calibration.py --talus build/talus`, commit {commit()}, {datetime.date.today()}; the target is
+Written by `tests/results/calibration_trials.py --talus build/talus`, commit {commit()}, {datetime.date.today()}; the target is
 [`synthetic_target.toml`](../sweeps/synthetic_target.toml). In each trial both keys are drawn from their ranges, runs with
 seeds of their own stand for experiments, and their means get errors of measurement:
 
