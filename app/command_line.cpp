@@ -109,16 +109,18 @@ void add_run(CLI::App& app, CommandLine& line)
     verb->add_flag("--relax", line.relax, "Move overlapping spheres apart before the run begins");
     add_run_options(*verb, line);
     add_page_flags(*verb, line);
-    CLI::Option* number =
-        verb->add_option("--case", line.sweep_case, "Bring this case of a sweep, whose folder is SCENE, to its end")
-            ->type_name("N")
-            ->check(CLI::Range(1, 1000000000));
-    for (const char* own : {"--seed", "--set", "--until", "--accuracy", "--out", "--relax"})
-        number->excludes(verb->get_option(own)); // a case is what its row says
+    verb->add_option("--case", line.sweep_case, "Bring this case of a sweep, whose folder is SCENE, to its end")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000000));
     verb->footer("Example: talus run hopper --set contact.glass-glass.friction=0.6 --until 2 -o out/rough\n"
                  "Ctrl-C stops a run after a checkpoint, from which 'talus resume' goes on; twice, at once. "
                  "SIGUSR1 makes it write a checkpoint.");
-    verb->callback([&] { line.verb = CommandLine::Verb::run; });
+    verb->callback([&line, verb] {
+        line.verb = CommandLine::Verb::run;
+        for (const char* own : {"--seed", "--set", "--until", "--accuracy", "--out", "--relax"})
+            if (line.sweep_case && verb->count(own) > 0)
+                throw UsageError(fmt::format("{} is not for a --case, which is as cases.csv of the sweep has it", own));
+    });
 }
 
 void add_resume(CLI::App& app, CommandLine& line)

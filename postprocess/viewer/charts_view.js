@@ -42,7 +42,7 @@ export class ChartsView {
       this.drawLegend();
       this.repaint();
     } }, h("option", { value: "-1" }, "nothing"), ...colourings.map((one, n) => h("option", { value: String(n), selected: n === coloured }, one.title)));
-    this.legend = h("span", { class: "scale" });
+    this.legend = h("small", { class: "scale" });
     this.drawLegend();
     return h("label", { class: "field" }, h("span", {}, "Colour by"), select, this.legend);
   }
