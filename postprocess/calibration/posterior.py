@@ -29,8 +29,14 @@ class Posterior:
     counting: float  # how many points count
 
     def interval(self, k, share=0.95):
-        """Median of a key and the ends between which it lies with a probability."""
-        return [float(one) for one in numpy.quantile(self.places[:, k], [0.5, 0.5 * (1 - share), 0.5 * (1 + share)])]
+        """Median of a key and the ends of the shortest interval that has so much of the probability.
+
+        Where a key is likeliest at an end of its range, that end is in it.
+        """
+        ordered = numpy.concatenate([[0.0], numpy.sort(self.places[:, k]), [1.0]])
+        held = round(share * len(ordered))
+        begin = int(numpy.argmin(ordered[held:] - ordered[:-held]))
+        return float(numpy.median(self.places[:, k])), float(ordered[begin]), float(ordered[begin + held])
 
 
 def misfits(places, measured, emulators):

@@ -26,7 +26,7 @@ from calibration.target import read_target  # noqa: E402
 from sweeps.folder import make_folder  # noqa: E402
 from sweeps.pool import run_all  # noqa: E402
 from sweeps.request import Sweep  # noqa: E402
-from sweeps.results import read_cases  # noqa: E402
+from sweeps.results import read_cases, setting  # noqa: E402
 
 PAGE = ROOT / "tests/results/calibration.md"
 TARGET = ROOT / "tests/sweeps/synthetic_target.toml"
@@ -56,12 +56,12 @@ def make_runs(target, arguments):
     return tuple({name: read_cases(folder) for name, folder in some.items()} for some in (folders, experiments))
 
 
-def experiment(one, cases, trial, chance):
+def experiment(one, cases, truth, chance):
     """A measurement of a trial: the mean of its runs, with the error of an instrument. Raises SystemExit where a run has no result."""
-    here = cases[one.scene][trial * one.repeats:(trial + 1) * one.repeats]
+    here = [case for case in cases[one.scene] if [setting(case.settings[key]) for key in truth] == list(truth.values())]
     _, used, values = values_of(one, here)
     if len(used) < one.repeats:
-        sys.exit(f"calibration_trials.py: an experiment of trial {trial + 1} has no {one.title}")
+        sys.exit(f"calibration_trials.py: an experiment with {truth} has no {one.title}")
     return dataclasses.replace(one, value=float(numpy.mean(values) + chance.normal(0, one.error)))
 
 
@@ -115,7 +115,7 @@ def main():
     chance = numpy.random.default_rng(SEED)
     rows, insides, widths = [], [], []
     for trial, truth in enumerate(truths(target)):
-        here = dataclasses.replace(target, measured=[experiment(one, made, trial, chance) for one in target.measured])
+        here = dataclasses.replace(target, measured=[experiment(one, made, dict(zip(target.unknown, truth)), chance) for one in target.measured])
         found = find(here, learnt)
         cells, inside = trial_row(target, found, truth)
         rows.append([str(trial + 1), *cells])

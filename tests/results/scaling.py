@@ -52,7 +52,9 @@ def threads_table():
     rows = []
     for bed in BEDS:
         one = stored["figures"][f"steps/{bed}"]
-        rows.append(f"| {one['spheres']:,.0f} | {one['step_ms']:.3g} | {one['step_ms_two_threads']:.3g} | {one['gain_of_two_threads']:.2f} |".replace(",", "\u202f"))
+        cells = [f"{one['spheres']:,.0f}", *(f"{one[key]:,.0f}" if one[key] >= 100 else f"{one[key]:.3g}" for key in ("step_ms", "step_ms_two_threads")),
+                 f"{one['gain_of_two_threads']:.2f}"]
+        rows.append("| " + " | ".join(cells).replace(",", "\u202f") + " |")
     head = "| spheres in flow | ms a step, one thread | two threads, by the clock | gain |\n| ---: | ---: | ---: | ---: |\n"
     return f"{head}{chr(10).join(rows)}\n\n(commit {stored['commit']}, {stored['date']}, {stored['machine']}; from [benchmarks](../tests/results/benchmarks.md))"
 
@@ -104,7 +106,7 @@ def main():
     text = replace_block(PAGE.read_text(encoding="utf-8"), "threads", threads_table())
     if not arguments.page:
         commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
-        stamp = f"(commit {commit}, {datetime.date.today()})"
+        stamp = f"(commit {commit}, {datetime.date.today()}; with others on the machine {os.getloadavg()[1]:.0f} processes wanted its {os.cpu_count()} cores)"
         with tempfile.TemporaryDirectory() as name:
             text = replace_block(text, "cost of threads", f"{threads_cost(talus, Path(name))}\n\n{stamp}")
             text = replace_block(text, "cost of sweeps", f"{sweep_cost(talus, Path(name))}\n\n{stamp}")
