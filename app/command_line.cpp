@@ -109,10 +109,18 @@ void add_run(CLI::App& app, CommandLine& line)
     verb->add_flag("--relax", line.relax, "Move overlapping spheres apart before the run begins");
     add_run_options(*verb, line);
     add_page_flags(*verb, line);
+    verb->add_option("--case", line.sweep_case, "Bring this case of a sweep, whose folder is SCENE, to its end")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000000));
     verb->footer("Example: talus run hopper --set contact.glass-glass.friction=0.6 --until 2 -o out/rough\n"
                  "Ctrl-C stops a run after a checkpoint, from which 'talus resume' goes on; twice, at once. "
                  "SIGUSR1 makes it write a checkpoint.");
-    verb->callback([&] { line.verb = CommandLine::Verb::run; });
+    verb->callback([&line, verb] {
+        line.verb = CommandLine::Verb::run;
+        for (const char* own : {"--seed", "--set", "--until", "--accuracy", "--out", "--relax"})
+            if (line.sweep_case && verb->count(own) > 0)
+                throw UsageError(fmt::format("{} is not for a --case, which is as cases.csv of the sweep has it", own));
+    });
 }
 
 void add_resume(CLI::App& app, CommandLine& line)
@@ -322,6 +330,46 @@ void add_watch(CLI::App& app, CommandLine& line)
     verb->callback([&] { line.verb = CommandLine::Verb::watch; });
 }
 
+void add_pool_options(CLI::App& verb, CommandLine& line, const char* folder)
+{
+    verb.add_option("-o,--out", line.out, folder)->type_name("DIR")->take_last();
+    verb.add_option("--jobs", line.jobs, "Run the cases here, so many at a time [none]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+    verb.add_flag("--force", line.force, "Begin anew where the folder holds another one");
+    add_quiet_flag(verb, line);
+}
+
+void add_sweep(CLI::App& app, CommandLine& line)
+{
+    CLI::App* verb = app.add_subcommand("sweep", "Make the cases of a sweep of keys over a scene, and run them");
+    verb->add_option("FILE", line.scene, "What to vary, see postprocess/README.md")->required()->type_name("");
+    add_pool_options(*verb, line, "Folder of the sweep [out/NAME]");
+    verb->footer("Example: talus sweep frictions.toml --jobs 2\n"
+                 "Without --jobs it says how Slurm, GNU parallel, Snakemake or Dask run the cases. A sweep that was "
+                 "stopped, anyhow, goes on when the same command is given again.");
+    verb->callback([&] { line.verb = CommandLine::Verb::sweep; });
+}
+
+void add_gather(CLI::App& app, CommandLine& line)
+{
+    CLI::App* verb = app.add_subcommand("gather", "Gather the results of a sweep into a table and a page");
+    verb->add_option("DIR", line.scene, "The folder of the sweep; it may be going on")->required()->type_name("");
+    verb->footer("Example: talus gather out/frictions");
+    verb->callback([&] { line.verb = CommandLine::Verb::gather; });
+}
+
+void add_calibrate(CLI::App& app, CommandLine& line)
+{
+    CLI::App* verb = app.add_subcommand("calibrate", "Find the values of keys that give what was measured");
+    verb->add_option("FILE", line.scene, "What was measured, see postprocess/README.md")->required()->type_name("");
+    add_pool_options(*verb, line, "Output folder [out/NAME]");
+    verb->footer("Example: talus calibrate glass.toml --jobs 2\n"
+                 "Without --jobs it says how the cases are run that are missing; it goes on when the same command is "
+                 "given again.");
+    verb->callback([&] { line.verb = CommandLine::Verb::calibrate; });
+}
+
 } // namespace
 
 std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
@@ -343,6 +391,9 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
     add_export(app, line);
     add_report(app, line);
     add_watch(app, line);
+    add_sweep(app, line);
+    add_gather(app, line);
+    add_calibrate(app, line);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
@@ -354,9 +405,8 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
             "{}; see 'talus {}--help'", error.what(), verbs.empty() ? "" : verbs.front()->get_name() + " "));
     }
     if (app.get_subcommands().empty())
-        throw UsageError("say what to do: new, run, resume, report, watch, check, keys, list, export, dump, solve or "
-                         "study; see 'talus "
-                         "--help'");
+        throw UsageError("say what to do: new, run, resume, report, watch, check, keys, list, export, dump, solve, "
+                         "study, sweep, gather or calibrate; see 'talus --help'");
     return line;
 }
 

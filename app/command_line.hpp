@@ -31,7 +31,23 @@ enum class ExportFormat { lammps_dump, csv, vtp, lammps, liggghts };
 
 /// What the user asked for, first of all of which scene.
 struct CommandLine : SceneRequest {
-    enum class Verb { new_scene, run, resume, report, watch, check, keys, list, export_files, dump, solve, study };
+    enum class Verb {
+        new_scene,
+        run,
+        resume,
+        report,
+        watch,
+        check,
+        keys,
+        list,
+        export_files,
+        dump,
+        solve,
+        study,
+        sweep,
+        gather,
+        calibrate
+    };
     Verb verb = Verb::list;
     std::string table; ///< of keys: the one to show; empty: all
     double at = 0.0;   ///< of dump [s]
@@ -43,6 +59,8 @@ struct CommandLine : SceneRequest {
     std::filesystem::path log;  ///< empty: no log file
     std::filesystem::path page; ///< of report; empty: report.html in the run's folder
     int frames = 0;             ///< of report: how many to play; 0: as many as are usual
+    std::optional<int> sweep_case; ///< of run, whose scene is then the folder of a sweep: the case to run
+    int jobs = 0;                  ///< of sweep and calibrate: cases at a time; 0: run none
     bool force = false;
     bool relax = false;
     bool resolved = false; ///< check prints the resolved scene

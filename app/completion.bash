@@ -36,7 +36,7 @@ _talus()
       compopt -o filenames
       COMPREPLY=($(compgen -f -- "$word"))
       return ;;
-    --accuracy | --at | --frames | --guess | --max-sweeps | --omega | --seed | --threads | --tolerance | --until) return ;;
+    --accuracy | --at | --case | --frames | --guess | --jobs | --max-sweeps | --omega | --seed | --threads | --tolerance | --until) return ;;
   esac
   if [[ $word == -* ]]; then
     COMPREPLY=($(compgen -W "$(_talus_options "$1" "$verb")" -- "$word"))
@@ -46,7 +46,10 @@ _talus()
     run | check | dump | export | study)
       compopt -o filenames
       COMPREPLY=($(compgen -W "$(_talus_scenes "$1")" -- "$word") $(compgen -d -- "$word") $(compgen -f -X '!*.toml' -- "$word")) ;;
-    resume | report | watch)
+    sweep | calibrate)
+      compopt -o filenames
+      COMPREPLY=($(compgen -d -- "$word") $(compgen -f -X '!*.toml' -- "$word")) ;;
+    resume | report | watch | gather)
       compopt -o filenames
       COMPREPLY=($(compgen -d -- "$word")) ;;
     solve)

@@ -13,7 +13,7 @@ install(TARGETS talus RUNTIME COMPONENT talus)
 install(DIRECTORY scenarios/ DESTINATION ${data}/scenarios COMPONENT talus
   FILES_MATCHING REGEX "\\.(toml|stl|vtu|LICENSE)$" PATTERN build EXCLUDE)
 install(DIRECTORY postprocess/ DESTINATION ${data}/postprocess COMPONENT talus USE_SOURCE_PERMISSIONS
-  FILES_MATCHING PATTERN "*.py" REGEX "viewer/bundle/" PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE
+  FILES_MATCHING PATTERN "*.py" REGEX "(viewer/bundle|sweeps/drivers)/" PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE
   PATTERN pictures EXCLUDE)
 install(FILES app/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME talus
   COMPONENT talus)
@@ -107,7 +107,7 @@ set(CPACK_DEBIAN_TALUS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_TALUS_PACKAGE_DEPENDS "python3:any")
 set(CPACK_DEBIAN_TALUS_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/app/debian/prerm)
 set(CPACK_DEBIAN_TALUS_PACKAGE_RECOMMENDS "python3-vtk9, python3-numpy, python3-matplotlib, xvfb, xauth")
-set(CPACK_DEBIAN_TALUS_PACKAGE_SUGGESTS "talus-doc, paraview, ffmpeg")
+set(CPACK_DEBIAN_TALUS_PACKAGE_SUGGESTS "talus-doc, paraview, ffmpeg, python3-scipy, python3-sklearn, parallel")
 set(CPACK_COMPONENT_TALUS_DESCRIPTION "${PROJECT_DESCRIPTION}
 Many spheres in contact with Coulomb friction, stepped with the nonsmooth
 discrete element method and solved by projected Gauss-Seidel. A scene is a

@@ -8,9 +8,11 @@
 #include "app/verbs/dump_step.hpp"
 #include "app/verbs/export_files.hpp"
 #include "app/verbs/new_scene.hpp"
+#include "app/verbs/run_case.hpp"
 #include "app/verbs/run_page.hpp"
 #include "app/verbs/run_scene.hpp"
 #include "app/verbs/solve_problem.hpp"
+#include "app/verbs/sweep_scripts.hpp"
 #include "io/scene/key_table.hpp"
 #include "io/text/input_error.hpp"
 
@@ -62,7 +64,7 @@ ExitCode execute(const CommandLine& line)
         new_scene(line);
         break;
     case CommandLine::Verb::run:
-        return run_scene(line);
+        return line.sweep_case ? run_case(line) : run_scene(line);
     case CommandLine::Verb::resume:
         return resume_run(line);
     case CommandLine::Verb::check:
@@ -86,6 +88,12 @@ ExitCode execute(const CommandLine& line)
         return report_run(line);
     case CommandLine::Verb::watch:
         return watch_run(line);
+    case CommandLine::Verb::sweep:
+        sweep_scenes(line);
+    case CommandLine::Verb::gather:
+        gather_cases(line);
+    case CommandLine::Verb::calibrate:
+        calibrate_scenes(line);
     }
     return ExitCode::done;
 }

@@ -16,7 +16,7 @@ COLUMN = 30  # in which the program's help begins to tell what an option means
 
 EXIT_STATUS = [
     ("0", "done"),
-    ("1", "talus solve: the tolerance was not met; the result is written all the same"),
+    ("1", "talus solve: the tolerance was not met; the result is written all the same. talus calibrate: runs are missing"),
     ("2", "wrong usage, a wrong scene or a wrong problem, told in one sentence"),
     ("3", "a sphere escaped, is not a number, blew up or is jammed"),
     ("4", "a file cannot be written"),

@@ -13,4 +13,7 @@ std::filesystem::path own_files();
 /// Makes it this folder, for what is no program of its own: a module of Python.
 void set_own_files(const std::filesystem::path& folder);
 
+/// The file of the program itself; empty where the system does not tell.
+std::filesystem::path own_program();
+
 } // namespace talus

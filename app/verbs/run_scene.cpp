@@ -150,7 +150,11 @@ void print_resumption(const OpenedScene& opened, const Checkpoint& checkpoint, c
 
 ExitCode run_scene(const CommandLine& line)
 {
-    OpenedScene opened = open_scene(line);
+    return run_opened(open_scene(line), line);
+}
+
+ExitCode run_opened(OpenedScene opened, const CommandLine& line)
+{
     if (line.threads > 0) omp_set_num_threads(line.threads);
     const fs::path folder = line.out.empty() ? fs::path("out") / opened.name : line.out;
     const auto files = named_files(opened.scene);

@@ -11,6 +11,10 @@ namespace talus
 /// @throws UsageError, InputError, OutputError
 ExitCode run_scene(const CommandLine& line);
 
+/// Runs a scene that is open, into the folder that the command line names.
+/// @returns, @throws as run_scene does
+ExitCode run_opened(OpenedScene opened, const CommandLine& line);
+
 /// Goes on with the run in the folder that the command line names, from its checkpoint, bit for bit as if it had never
 /// stopped.
 /// @returns as run_scene does

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/run/folder_lock.hpp"
 
-#include "io/text/input_error.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -47,7 +45,7 @@ bool is_still_there(const fs::path& path, int descriptor)
 {
     std::string owner;
     std::getline(std::ifstream(lock), owner);
-    throw InputError(fmt::format("{}: {} writes into this folder; wait until it is done, stop it, or choose another "
+    throw FolderBusy(fmt::format("{}: {} writes into this folder; wait until it is done, stop it, or choose another "
                                  "folder; nothing was changed",
         folder.string(), owner.empty() ? "another process of Talus" : owner));
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/text/input_error.hpp"
+
 #include <filesystem>
 
 namespace talus
@@ -9,12 +11,17 @@ namespace talus
 /// The file that a folder's owner holds locked while it runs, and takes away when it is done.
 inline constexpr const char* lock_name = "talus.lock";
 
+/// Another process writes into the folder.
+struct FolderBusy : InputError {
+    using InputError::InputError;
+};
+
 /// Makes this process the only one of Talus that writes into a folder, also over NFS, until it ends in whatever way.
 class FolderLock
 {
 public:
     /// @pre the folder is there
-    /// @throws InputError with the owner's process and host where there is one, OutputError where the folder may not
+    /// @throws FolderBusy with the owner's process and host where there is one, OutputError where the folder may not
     /// be written
     explicit FolderLock(const std::filesystem::path& folder);
     ~FolderLock();

@@ -23,7 +23,7 @@ function dragMovesClock(over, timeAt, clock) {
   });
 }
 
-function axes(log) {
+export function axes(log) {
   const soft = schemeColour("soft");
   const grid = { stroke: schemeColour("grid"), width: 1 };
   const font = "11px system-ui, sans-serif";
@@ -54,7 +54,7 @@ export function decades(u, low, high) {
 }
 
 /** A range with a little room, even where all values are the same. */
-function roomy(u, low, high) {
+export function roomy(u, low, high) {
   if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [0, 1];
   const room = 0.06 * (high - low) || 0.1 * Math.abs(high) || 1;
   return [low >= 0 && low < 0.5 * high ? Math.min(0, low) : low - room, high + room];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 import "./page.css";
 import "uplot/dist/uPlot.min.css";
+import { ChartsView } from "./charts_view.js";
 import { CompareView } from "./compare_view.js";
 import { follow } from "./live.js";
 import { pictureOf } from "./save.js";
@@ -9,7 +10,8 @@ import { embeddedBlob } from "./unpack.js";
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const { mode } = document.body.dataset;
-const view = mode === "compare" ? new CompareView(data, embeddedBlob) : new RunView(data, embeddedBlob);
+const views = { compare: CompareView, charts: ChartsView };
+const view = new (views[mode] ?? RunView)(data, embeddedBlob);
 window.talus = view; // for a look from the browser's console, and for the tests
 
 document.querySelectorAll("pre.copy").forEach((pre) => pre.addEventListener("click", () => getSelection().selectAllChildren(pre)));

@@ -115,6 +115,8 @@ const std::vector<Situation> situations = {
     {"a wrong number of threads", "", "run scene.toml --threads 0"},
     {"an end before the beginning", "", "run scene.toml --until -1"},
     {"two options that exclude each other", "", "run scene.toml --quiet --verbose"},
+    {"a case with a setting of its own", "", "run out --case 1 --seed 2"},
+    {"a case of what is no sweep", "mkdir out", "run out --case 1"},
     {"a scene that is not there", "", "run nowhere"},
     {"keys of a table that is not there", "", "keys wal"},
     edited("text that is not TOML", "count = 8", "count = = 8"),
