@@ -3,35 +3,11 @@
 
 #include "core/packs/kernels.hpp"
 #include "core/packs/numbers.hpp"
+#include "core/packs/packed_slots.hpp"
 
 /// Detection between spheres, and the laws of all contacts, METHOD (4), `width` at a time.
 namespace talus::packs
 {
-
-/// Records of four numbers, number beside number.
-template <int width>
-[[gnu::always_inline]] inline void gather_four(Numbers<width>* numbers, const double* const* records)
-{
-    constexpr auto lanes = std::make_integer_sequence<int, width>{};
-    if constexpr (width == 2) {
-        for (int block = 0; block < 4; block += width) {
-            for (int lane = 0; lane < width; ++lane) numbers[block + lane] = load<width>(records[lane] + block);
-            transpose<width>(numbers + block);
-        }
-    } else {
-        for (int row = 0; row < 4; ++row) {
-            if constexpr (width == 8)
-                numbers[row] =
-                    __builtin_shufflevector(load<4>(records[row]), load<4>(records[row + 4]), 0, 1, 2, 3, 4, 5, 6, 7);
-            else
-                numbers[row] = load<width>(records[row]);
-        }
-        exchange<width, 2>(numbers[0], numbers[2], lanes);
-        exchange<width, 2>(numbers[1], numbers[3], lanes);
-        exchange<width, 1>(numbers[0], numbers[1], lanes);
-        exchange<width, 1>(numbers[2], numbers[3], lanes);
-    }
-}
 
 /// Balls by sphere, number beside number.
 template <int width> struct Balls {
@@ -71,8 +47,6 @@ template <int width>
 std::size_t find_near(const std::int32_t* pairs, std::uint32_t candidates, const SphereNumbers& spheres,
     const StepConstants& step, std::uint32_t* near)
 {
-    constexpr std::size_t carried_size = 32, touch_byte = 28; // CarriedContact
-    const auto* const touch = reinterpret_cast<const std::uint8_t*>(spheres.carried) + touch_byte;
     std::size_t count = 0;
     for (std::uint32_t k = 0; k < candidates; k += width) {
         const int pairs_left = candidates - k < width ? static_cast<int>(candidates - k) : width;
@@ -88,7 +62,7 @@ std::size_t find_near(const std::int32_t* pairs, std::uint32_t candidates, const
         const Flags<width> meet = apart.dot(apart) <= radii * radii;
         for (int lane = 0; lane < pairs_left; ++lane) {
             near[count] = k + static_cast<std::uint32_t>(lane); // no branch: which are near is no pattern
-            const bool loaded = touch[carried_size * (k + static_cast<std::uint32_t>(lane))] != 0;
+            const bool loaded = CarriedRecords<width>::is_known(spheres.carried, k + static_cast<std::uint32_t>(lane));
             count += static_cast<std::size_t>((meet[lane] != 0) | loaded);
         }
     }
@@ -244,30 +218,6 @@ template <int width> void make_contacts(ContactPack& contact, TouchPack& touch, 
         apply_law<width>(contact, touch, first, ~Flags<width>{}, step);
 }
 
-/// Records of four numbers with which a slot keeps what it carries: λ, and f beside the TouchRecord in one number.
-template <int width> struct CarriedRecords {
-    static constexpr int touch_bits = 32; ///< behind those of f
-
-    Vector<width> impulse;
-    Numbers<width> free_overlap;
-    Flags<width> touch;
-
-    [[gnu::always_inline]] static CarriedRecords gather(const std::uint32_t* slot, const double* carried)
-    {
-        const double* records[width];
-        for (int lane = 0; lane < width; ++lane) records[lane] = carried + std::size_t{4} * slot[lane];
-        Numbers<width> numbers[4];
-        gather_four<width>(numbers, records);
-        Flags<width> both;
-        __builtin_memcpy(&both, &numbers[3], sizeof both);
-        const auto low = __builtin_convertvector(both, typename Register<width>::Words);
-        typename Register<width>::Floats overlap;
-        __builtin_memcpy(&overlap, &low, sizeof overlap);
-        return {{numbers[0], numbers[1], numbers[2]}, __builtin_convertvector(overlap, Numbers<width>),
-            (both >> touch_bits) & 255};
-    }
-};
-
 /// What the spheres' materials and slots say of these touches.
 template <int width>
 [[gnu::always_inline]] inline void recall(ContactPack& contact, TouchPack& touch, RecordPack& record, int first,
@@ -342,34 +292,6 @@ TouchMarks touch_spheres(
     return marks;
 }
 
-/// Puts records of four numbers where they belong, those of lanes that are not empty.
-template <int width> [[gnu::always_inline]] inline void scatter_four(Numbers<width>* numbers, double* const* records)
-{
-    constexpr auto lanes = std::make_integer_sequence<int, width>{};
-    if constexpr (width == 2) {
-        for (int block = 0; block < 4; block += width) {
-            transpose<width>(numbers + block);
-            for (int lane = 0; lane < width; ++lane)
-                if (records[lane]) store<width>(records[lane] + block, numbers[block + lane]);
-        }
-    } else {
-        exchange<width, 1>(numbers[0], numbers[1], lanes);
-        exchange<width, 1>(numbers[2], numbers[3], lanes);
-        exchange<width, 2>(numbers[0], numbers[2], lanes);
-        exchange<width, 2>(numbers[1], numbers[3], lanes);
-#pragma GCC unroll 4
-        for (int row = 0; row < 4; ++row) {
-            if constexpr (width == 8) {
-                if (records[row])
-                    store<4>(records[row], __builtin_shufflevector(numbers[row], numbers[row], 0, 1, 2, 3));
-                if (records[row + 4])
-                    store<4>(records[row + 4], __builtin_shufflevector(numbers[row], numbers[row], 4, 5, 6, 7));
-            } else if (records[row])
-                store<width>(records[row], numbers[row]);
-        }
-    }
-}
-
 template <int width>
 double hand_on(const ContactPack& contact, RecordPack& record, double deep, unsigned& deep_lanes, double* carried)
 {
@@ -394,17 +316,14 @@ double hand_on(const ContactPack& contact, RecordPack& record, double deep, unsi
 
         typename Register<width>::Floats overlap;
         __builtin_memcpy(&overlap, record.free_overlap + first, sizeof overlap);
-        typename Register<width>::Words low;
-        __builtin_memcpy(&low, &overlap, sizeof low);
-        const Flags<width> both =
-            __builtin_convertvector(low, Flags<width>) | (touch << CarriedRecords<width>::touch_bits);
-        Numbers<width> numbers[4] = {keeps ? impulse.x : none, keeps ? impulse.y : none, keeps ? impulse.z : none};
-        __builtin_memcpy(&numbers[3], &both, sizeof both);
+        const CarriedRecords<width> carries{
+            {keeps ? impulse.x : none, keeps ? impulse.y : none, keeps ? impulse.z : none},
+            __builtin_convertvector(overlap, Numbers<width>), touch};
         double* records[width];
         for (int lane = 0; lane < width; ++lane)
             records[lane] =
                 contact.a[first + lane] < 0 ? nullptr : carried + std::size_t{4} * record.slot[first + lane];
-        scatter_four<width>(numbers, records);
+        carries.scatter(records);
     }
     deep_lanes &= record.in_problem;
     return worst;
