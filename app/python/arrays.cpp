@@ -56,6 +56,11 @@ void write(const Vec3& vector, double* out)
 
 } // namespace
 
+void register_records()
+{
+    PYBIND11_NUMPY_DTYPE(ContactRow, a, b, wall, point, normal, gap, force);
+}
+
 py::array copy_of(Session& session, const std::string& name)
 {
     const State& state = session.now().state;
@@ -101,7 +106,6 @@ py::array view_of(Session& session, const std::string& name)
 
 py::array contacts_of(Session& session)
 {
-    PYBIND11_NUMPY_DTYPE(ContactRow, a, b, wall, point, normal, gap, force);
     const Simulation& simulation = session.now();
     const State& state = simulation.state;
     const double h = simulation.network.carried.impulse_step;

@@ -11,6 +11,9 @@
 namespace talus::python
 {
 
+/// Makes numpy know the records of contacts: once, before all.
+void register_records();
+
 /// @param name "positions", "velocities", "angular_velocities", "radii", "masses", "materials", "ids" or "own_forces"
 /// @return a copy, in the order of ids
 pybind11::array copy_of(Session& session, const std::string& name);

@@ -271,6 +271,7 @@ PYBIND11_MODULE(_core, module)
     module.attr("__version__") = TALUS_VERSION;
     module.attr("source_folder") = TALUS_SOURCE_FOLDER;
     py::register_exception_translator(&translate);
+    register_records();
     bind_report(module);
     bind_wall(module);
     bind_simulation(module);

@@ -10,7 +10,7 @@ def box_of_beads(**changes):
         "contact": [{"between": ["glass", "glass"], "friction": 0.5, "restitution": 0.3}],
         "fill": [{"material": "glass", "count": 120,
                   "diameter": {"distribution": "uniform", "min": 0.009, "max": 0.011},
-                  "region": {"shape": "box", "min": [0, 0, 0], "max": [0.05, 0.05, 0.1]}}],
+                  "region": {"shape": "box", "min": [0, 0, 0], "max": [0.05, 0.05, 0.18]}}],
         "wall": [{"name": "box", "shape": "box", "min": [0, 0, 0], "max": [0.05, 0.05, 0.2], "open": ["z+"],
                   "material": "glass"}],
         "sensor": [{"name": "on_box", "kind": "wall_force", "wall": "box", "from": 0.2}],

@@ -272,7 +272,7 @@ class Changing(InFolder):
             box.velocity = (0.0, 0.0, numpy.nan)
 
     def test_a_load_is_carried(self):
-        lid = {"name": "lid", "shape": "disk", "center": [0.025, 0.025, 0.15], "radius": 0.024, "material": "glass",
+        lid = {"name": "lid", "shape": "disk", "center": [0.025, 0.025, 0.19], "radius": 0.024, "material": "glass",
                "mass": 0.1, "guide": [0, 0, -1]}
         sim = talus.Simulation(box_of_beads(wall=[*box_of_beads()["wall"], lid]))
         sim.run(until=0.6)
