@@ -23,15 +23,16 @@ def shares(unknown, values):
 class Emulator:
     """What runs find, over the unit cube of their keys.
 
-    places: shares of the ranges, a row a run; values: what was found.
+    places: shares of the ranges, a row a run; values: what was found; columns: which of all unknown keys these are.
     """
 
-    def __init__(self, places, values):
+    def __init__(self, places, values, columns):
         try:
             from sklearn.gaussian_process import GaussianProcessRegressor
             from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
         except ImportError as error:
             raise RunError("Calibration needs scikit-learn and SciPy: apt install python3-sklearn.") from error
+        self.columns = columns
         self.places, self.values = places, numpy.asarray(values, dtype=float)
         self.middle, self.size = self.values.mean(), self.values.std() or 1.0
         kernel = ConstantKernel(1.0, (1e-2, 1e2)) * Matern([0.5] * places.shape[1], (0.1, 20.0), nu=2.5) + WhiteKernel(0.1, (1e-6, 2.0))
@@ -52,9 +53,9 @@ class Emulator:
         return self.values - self.size * (inverse @ z) / diagonal, self.size / numpy.sqrt(diagonal)
 
     def tell(self, places):
-        """The mean result at some places, and its error, without the scatter of a single run."""
+        """The mean result at some places of all unknown keys, and its error, without the scatter of a single run."""
         means, errors = [], []
-        for some in numpy.array_split(places, max(1, len(places) // 4096)):
+        for some in numpy.array_split(places[:, self.columns], max(1, len(places) // 4096)):
             mean, deviation = self.process.predict(some, return_std=True)
             means.append(self.middle + self.size * mean)
             error = self.widening * self.size * deviation

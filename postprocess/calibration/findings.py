@@ -55,18 +55,17 @@ def find(target, cases_by_scene):
     Raises RunError where there are too few results, or a scene has no such sensor.
     """
     emulators, units, dropped = [], [], {}
-    ranges = list(target.unknown.values())
     for one in target.measured:
-        cases = cases_by_scene[one.scene]
+        cases, varied = cases_by_scene[one.scene], target.sweeps[one.scene].vary
         unit, used, values = values_of(one, cases)
         dropped[one.scene] = len(cases) - len(used)
-        if len(used) < 4 * len(ranges) + 2:
+        if len(used) < 4 * len(varied) + 2:
             raise RunError(f"{one.title} of {one.scene}: {len(used)} of {len(cases)} cases have it, too few to learn from; "
-                           f"{4 * len(ranges) + 2} are needed for {len(ranges)} unknown keys.")
-        places = shares(ranges, [[setting(case.settings[key]) for key in target.unknown] for case in used])
-        emulators.append(Emulator(places, values))
+                           f"{4 * len(varied) + 2} are needed for {len(varied)} unknown keys.")
+        places = shares(varied.values(), [[setting(case.settings[key]) for key in varied] for case in used])
+        emulators.append(Emulator(places, values, [list(target.unknown).index(key) for key in varied]))
         units.append(unit)
-    return Findings(target, emulators, units, dropped, posterior(target.measured, emulators))
+    return Findings(target, emulators, units, dropped, posterior(target.measured, emulators, len(target.unknown)))
 
 
 def values_of(one, cases):

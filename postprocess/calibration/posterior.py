@@ -50,11 +50,10 @@ def misfits(places, measured, emulators):
     return squares, logs
 
 
-def posterior(measured, emulators):
-    """The Posterior of some measurements, each with the emulator of what it measured."""
+def posterior(measured, emulators, dimensions):
+    """The Posterior of so many keys, from some measurements, each with the emulator of what it measured."""
     from scipy.stats import qmc
 
-    dimensions = emulators[0].places.shape[1]
     points = 2 ** min(12 + dimensions, 17)
     low, high = numpy.zeros(dimensions), numpy.ones(dimensions)
     for box in range(MOST_BOXES):

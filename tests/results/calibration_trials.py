@@ -48,7 +48,7 @@ def make_runs(target, arguments):
     for name, sweep in target.sweeps.items():
         repeats = max(one.repeats for one in target.measured if one.scene == name)
         truth = Sweep(name=f"truth-{name}", scene=sweep.scene, fixed=sweep.fixed, kind="list", reports=False,
-                      vary={key: [values[k] for values in drawn] for k, key in enumerate(keys)}, seeds=list(range(FIRST_SEED, FIRST_SEED + repeats)))
+                      vary={key: [values[k] for values in drawn] for k, key in enumerate(keys) if key in sweep.vary}, seeds=list(range(FIRST_SEED, FIRST_SEED + repeats)))
         folders[name] = make_folder(sweep, arguments.out / name, arguments.talus, False)
         experiments[name] = make_folder(truth, arguments.out / truth.name, arguments.talus, False)
     if complaints := run_all(str(arguments.talus), arguments.jobs, [*folders.values(), *experiments.values()]):
@@ -58,7 +58,7 @@ def make_runs(target, arguments):
 
 def experiment(one, cases, truth, chance):
     """A measurement of a trial: the mean of its runs, with the error of an instrument. Raises SystemExit where a run has no result."""
-    here = [case for case in cases[one.scene] if [setting(case.settings[key]) for key in truth] == list(truth.values())]
+    here = [case for case in cases[one.scene] if all(setting(case.settings.get(key, str(value))) == value for key, value in truth.items())]
     _, used, values = values_of(one, here)
     if len(used) < one.repeats:
         sys.exit(f"calibration_trials.py: an experiment with {truth} has no {one.title}")
