@@ -24,7 +24,7 @@ def main():
     from nbconvert import HTMLExporter
     from nbconvert.preprocessors import ExecutePreprocessor
 
-    os.environ["PYTHONPATH"] = packages
+    os.environ |= {"PYTHONPATH": packages, "PYDEVD_DISABLE_FILE_VALIDATION": "1"}
     notebook = nbformat.read(NOTEBOOK, as_version=4)
     ExecutePreprocessor(timeout=600, kernel_name="python3").preprocess(notebook)
     if page:
