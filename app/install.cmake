@@ -135,13 +135,14 @@ set(CPACK_DEBIAN_SITE_PACKAGE_ARCHITECTURE all)
 set(CPACK_COMPONENT_SITE_DESCRIPTION "Granular dynamics: documentation
 The site of Talus, to be read from the disk: tutorial, gallery, every key of
 a scene, the method, what was measured, limits.")
+if(TALUS_PYTHON)
+  set(python_component python)
+  set(python_module talus_python)
+endif()
 set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_BINARY_DIR}/packages.cmake)
 file(CONFIGURE OUTPUT ${CPACK_PROJECT_CONFIG_FILE} CONTENT [[
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each has its own
-set(CPACK_COMPONENTS_ALL talus development)
-if("@TALUS_PYTHON@")
-  list(APPEND CPACK_COMPONENTS_ALL python)
-endif()
+set(CPACK_COMPONENTS_ALL talus development @python_component@)
 if(EXISTS @docs@/html/index.html)
   list(APPEND CPACK_COMPONENTS_ALL site)
 endif()
@@ -149,8 +150,5 @@ endif()
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 include(CPack)
 add_custom_command(OUTPUT ${changelog}.gz DEPENDS ${changelog} COMMAND gzip -9nkf ${changelog} VERBATIM)
-if(TALUS_PYTHON)
-  set(python_module talus_python)
-endif()
 add_custom_target(deb COMMAND ${CMAKE_CPACK_COMMAND} -G DEB DEPENDS talus man ${rooms} ${changelog}.gz ${python_module}
   USES_TERMINAL VERBATIM)
