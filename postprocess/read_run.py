@@ -54,6 +54,18 @@ class Spheres:
             setattr(self, self.NAMES.get(array.GetName(), array.GetName()), vtk_to_numpy(array))
 
 
+def is_locked(path):
+    """Whether a process of Talus writes into the folder of this lock."""
+    try:
+        with path.open("rb") as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        return False
+    except FileNotFoundError:
+        return False
+    except OSError:
+        return True
+
+
 class Run:
     """The folder of a run.
 
@@ -67,14 +79,7 @@ class Run:
 
     def is_going_on(self):
         """Whether a process of Talus writes into the folder: it holds talus.lock locked until it ends."""
-        try:
-            with (self.folder / "talus.lock").open("rb") as file:
-                fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-            return False
-        except FileNotFoundError:
-            return False
-        except OSError:
-            return True
+        return is_locked(self.folder / "talus.lock")
 
     def scene(self):
         """The scene with all its keys, as nested dictionaries."""

@@ -117,7 +117,6 @@ void Interventions::persist(Archive& archive, Model& model)
 
 void drive_wall(Simulation& simulation, std::size_t wall, const Vec3& velocity)
 {
-    if (!simulation.model.physics.moving_walls) simulation.network.contacts.clear(); // they have no rows for motion
     simulation.interventions.drive(simulation.model, wall, velocity, simulation.state.time);
     simulation.network.list.listed_pose.clear(); // a wall that has stood still is listed without room to move
 }

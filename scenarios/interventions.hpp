@@ -55,7 +55,7 @@ private:
 
 // What may be done from outside between two steps.
 
-/// As Interventions::drive. Where no wall has moved before, the contacts of the last step are forgotten.
+/// As Interventions::drive.
 void drive_wall(Simulation& simulation, std::size_t wall, const Vec3& velocity);
 
 /// As Interventions::load.

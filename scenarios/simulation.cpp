@@ -38,7 +38,7 @@ void Simulation::persist_without_sensors(Archive& archive)
     if (rolling != model.physics.rolling) throw ArchiveError("it is of a scene with another rolling resistance");
     archive(state, network, pours, outflow, escaped);
     interventions.persist(archive, model);
-    if (archive.reading()) network.contacts.clear(); // of another state, perhaps without rows for walls that move
+    if (archive.reading()) network.contacts.clear(); // they are of another state
 }
 
 bool IncidentPolicy::stops(const StepReport& report) const

@@ -166,11 +166,10 @@ class WallSearch
 {
 public:
     WallSearch(const CandidateList& list, const Model& model, double h, const std::vector<PlacedWall>& walls,
-        const std::vector<std::int32_t>& movers, const std::vector<std::uint8_t>& stale)
-        : list_(list), old_(list, list.listed_box.size()), walls_(walls), movers_(movers), stale_(stale),
-          moves_(list.listed_box.size(), 0)
+        const std::vector<std::int32_t>& movers, const std::vector<std::uint8_t>& moves,
+        const std::vector<std::uint8_t>& stale)
+        : list_(list), old_(list, list.listed_box.size()), walls_(walls), movers_(movers), moves_(moves), stale_(stale)
     {
-        for (const auto i : movers) moves_[static_cast<std::size_t>(i)] = 1;
         // A wall does not come half of the way, as another sphere does.
         const double reach = 0.5 * open_contact_reach * model.min_diameter;
         for (const auto& wall : walls) {
@@ -206,9 +205,9 @@ private:
     const OldWallPairs old_;
     const std::vector<PlacedWall>& walls_;
     const std::vector<std::int32_t>& movers_;
-    const std::vector<std::uint8_t>& stale_;
-    std::vector<std::uint8_t> moves_; ///< by sphere
-    std::vector<double> margin_;      ///< by wall [m]
+    const std::vector<std::uint8_t>& moves_; ///< by sphere
+    const std::vector<std::uint8_t>& stale_; ///< by wall
+    std::vector<double> margin_;             ///< by wall [m]
 
     void search_around(std::int32_t sphere, WallEntries& entries) const
     {
@@ -234,10 +233,8 @@ private:
 
 /// Brings the pairs up to date where these spheres have new boxes.
 void list_anew(CandidateList& list, Carried& carried, const State& state, const Model& model,
-    const std::vector<std::int32_t>& movers, const WallEntries& walls)
+    const std::vector<std::int32_t>& movers, const std::vector<std::uint8_t>& moves, const WallEntries& walls)
 {
-    std::vector<std::uint8_t> moves(state.count(), 0);
-    for (const auto i : movers) moves[static_cast<std::size_t>(i)] = 1;
     auto found = pairs_of(movers, list, state, model);
     const double edge = tile_edge(list, model, movers);
     if (edge == list.tile_edge) {
@@ -273,11 +270,13 @@ std::size_t update_candidates(CandidateList& list, Carried& carried, const State
         list.listed_around = Box{};
         for (const Box& box : list.listed_box) list.listed_around.extend(box);
     }
-    const WallEntries near_walls = WallSearch(list, model, h, walls, movers, stale).search();
+    std::vector<std::uint8_t> moves(state.count(), 0);
+    for (const auto i : movers) moves[static_cast<std::size_t>(i)] = 1;
+    const WallEntries near_walls = WallSearch(list, model, h, walls, movers, moves, stale).search();
     list.listed_pose.resize(walls.size());
     for (std::size_t w = 0; w < walls.size(); ++w)
         if (stale[w]) list.listed_pose[w] = walls[w].pose();
-    list_anew(list, carried, state, model, movers, near_walls);
+    list_anew(list, carried, state, model, movers, moves, near_walls);
     return movers.size();
 }
 

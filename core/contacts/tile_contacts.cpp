@@ -21,6 +21,9 @@ void TileContacts::clear(bool rolling, bool moving_walls, bool made_whole)
     with_rolling_ = rolling;
     with_moving_walls_ = moving_walls;
     made_whole_ = made_whole;
+    // What the scene needs may have changed: a wall may be driven that has stood still.
+    if (rolling) rolling_.resize(packs_.size());
+    if (moving_walls) wall_.resize(packs_.size());
 }
 
 void TileContacts::append_pack()

@@ -9,7 +9,6 @@
     results.csv, costs.csv, results.parquet, sweep.html        what was gathered
 """
 import csv
-import fcntl
 import hashlib
 import io
 import json
@@ -20,7 +19,7 @@ import subprocess
 import tomllib
 from pathlib import Path
 
-from read_run import RunError
+from read_run import RunError, is_locked
 from sweeps.design import cases_of
 from sweeps.setting_text import setting_text
 
@@ -202,18 +201,6 @@ def write_drivers(path, talus, about, count):
         write_whole(folder / driver.name, text)
         if text.startswith("#!"):
             (folder / driver.name).chmod(0o755)
-
-
-def is_locked(path):
-    """Whether a process of Talus writes into the folder of this lock."""
-    try:
-        with path.open("rb") as file:
-            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        return False
-    except FileNotFoundError:
-        return False
-    except OSError:
-        return True
 
 
 def remove_sweep(path):
