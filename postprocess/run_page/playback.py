@@ -10,7 +10,7 @@ MOST_FRAMES = 60  # intervals between the frames that are played
 GRAIN_FRAMES = 2_000_000  # grains times frames, more of which would make the page too heavy
 LEAST_FRAMES = 10
 GROUP = 10  # frames, of which the first is stored whole, so that one may begin there
-QUANTUM = 0.004  # of positions [d]; four times as much for many grains
+QUANTUM = 0.004  # of positions [d]; up to eight times as much for many grains, which are small on the screen
 
 
 def point_array(frame, name):
@@ -92,7 +92,7 @@ class Playback:
         """Where positions are counted from, and in which steps."""
         most = max(range(len(grains)), key=lambda k: len(grains[k].ids))
         diameter = 2 * float(numpy.mean(self.read[frames[most].path][1])) or 1.0
-        coarser = numpy.clip(len(grains[most].ids) / 25_000, 1.0, 4.0)
+        coarser = numpy.clip(len(grains[most].ids) / 12_500, 1.0, 8.0)
         positions = grains[most].positions
         return positions[numpy.isfinite(positions).all(axis=1)].mean(axis=0), float(QUANTUM * coarser * diameter)
 
