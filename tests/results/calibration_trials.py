@@ -30,7 +30,7 @@ from sweeps.results import read_cases, setting  # noqa: E402
 
 PAGE = ROOT / "tests/results/calibration.md"
 TARGET = ROOT / "tests/sweeps/synthetic_target.toml"
-TRIALS, SEED, FIRST_SEED = 20, 7, 1001
+TRIALS, SEED, FIRST_SEED = 20, 8, 2001
 ENOUGH = 0.9
 
 
