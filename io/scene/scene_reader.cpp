@@ -182,4 +182,11 @@ scene::Study read_study_tables(const toml::table& root, Places& places)
     return study;
 }
 
+scene::MeasuredSettings read_measured_tables(const toml::table& root, Places& places)
+{
+    scene::MeasuredSettings measured;
+    SceneReader(places).read_table(root, {"", "the file"}, measured);
+    return measured;
+}
+
 } // namespace talus

@@ -23,4 +23,8 @@ scene::Scene read_tables(const toml::table& root, Places& places);
 /// @throws InputError on the first key that is unknown, missing or not allowed
 scene::Study read_study_tables(const toml::table& root, Places& places);
 
+/// Reads the settings that accuracy chooses from.
+/// @throws InputError as above
+scene::MeasuredSettings read_measured_tables(const toml::table& root, Places& places);
+
 } // namespace talus
