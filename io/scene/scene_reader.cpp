@@ -174,14 +174,6 @@ scene::Scene read_tables(const toml::table& root, Places& places)
     return scene;
 }
 
-scene::Study read_study_tables(const toml::table& root, Places& places)
-{
-    scene::Study study;
-    if (root.contains("vary")) study.vary.clear();
-    SceneReader(places).read_table(root, {"", "the study"}, study);
-    return study;
-}
-
 scene::MeasuredSettings read_measured_tables(const toml::table& root, Places& places)
 {
     scene::MeasuredSettings measured;
