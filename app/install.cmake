@@ -106,7 +106,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TALUS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_TALUS_PACKAGE_DEPENDS "python3:any")
 set(CPACK_DEBIAN_TALUS_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/app/debian/prerm)
-set(CPACK_DEBIAN_TALUS_PACKAGE_RECOMMENDS "python3-vtk9, python3-numpy, python3-matplotlib, xvfb, xauth")
+set(CPACK_DEBIAN_TALUS_PACKAGE_RECOMMENDS "python3-talus, python3-vtk9, python3-numpy, python3-matplotlib, xvfb, xauth")
 set(CPACK_DEBIAN_TALUS_PACKAGE_SUGGESTS "talus-doc, paraview, ffmpeg, python3-scipy, python3-sklearn, parallel")
 set(CPACK_COMPONENT_TALUS_DESCRIPTION "${PROJECT_DESCRIPTION}
 Many spheres in contact with Coulomb friction, stepped with the nonsmooth

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/command_line.hpp"
 #include "app/loop/open_scene.hpp"
-#include "app/study/study.hpp"
 #include "app/system/last_words.hpp"
 #include "app/system/terminal.hpp"
 #include "app/verbs/check_scene.hpp"
@@ -71,6 +70,7 @@ ExitCode execute(const CommandLine& line)
         check_scene(open_scene(line), line.resolved);
         break;
     case CommandLine::Verb::keys:
+        if (line.table == "study") tell_study_keys();
         say_text(key_table(line.table));
         break;
     case CommandLine::Verb::list:
@@ -80,14 +80,14 @@ ExitCode execute(const CommandLine& line)
         return dump_step(line);
     case CommandLine::Verb::solve:
         return solve_problem(line);
-    case CommandLine::Verb::study:
-        return study_scene(line);
     case CommandLine::Verb::export_files:
         return export_files(line);
     case CommandLine::Verb::report:
         return report_run(line);
     case CommandLine::Verb::watch:
         return watch_run(line);
+    case CommandLine::Verb::study:
+        study_scene(line);
     case CommandLine::Verb::sweep:
         sweep_scenes(line);
     case CommandLine::Verb::gather:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "scenarios/measured_setting.hpp"
 #include "scenarios/run_tables.hpp"
 #include "scenarios/sensor_table.hpp"
 #include "scenarios/sphere_tables.hpp"
@@ -27,6 +28,7 @@ struct Scene {
     std::vector<WallTable> wall;
     std::vector<OutletTable> outlet;
     std::vector<SensorTable> sensor;
+    std::vector<MeasuredSetting> measured = {}; ///< no key: what accuracy chooses from, where the scene asks for one
 
     static void describe(auto& self, auto&& key)
     {

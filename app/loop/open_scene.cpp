@@ -3,6 +3,7 @@
 
 #include "app/system/own_files.hpp"
 #include "app/system/terminal.hpp"
+#include "io/scene/accuracy_file.hpp"
 #include "io/text/input_error.hpp"
 #include "scenarios/build/build_scene.hpp"
 
@@ -52,6 +53,8 @@ SceneFile read_scene_as_asked(const fs::path& path, const SceneRequest& request)
 
 OpenedScene build_opened(SceneFile file, std::string name)
 {
+    if (!file.scene.accuracy.empty())
+        file.scene.measured = read_measured_settings(own_files() / "scenarios" / "accuracy" / "settings.toml");
     try {
         auto [simulation, report] = build_scene(file.scene);
         return {std::move(name), std::move(file.scene), std::move(simulation), std::move(report)};

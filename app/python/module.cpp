@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/python/arrays.hpp"
+#include "app/python/findings.hpp"
 #include "app/python/session.hpp"
 #include "app/python/wall.hpp"
 #include "app/system/own_files.hpp"
@@ -204,6 +205,93 @@ void bind_wall(py::module_& module)
         .def("__repr__", [](const WallHandle& w) { return fmt::format("<Wall '{}'>", w.name()); });
 }
 
+/// Keeps a folder for one process of Talus while it is entered.
+class LockedFolder
+{
+public:
+    explicit LockedFolder(fs::path folder) : folder_(std::move(folder)) {}
+
+    void enter()
+    {
+        lock_ = std::make_unique<FolderLock>(folder_);
+        warn_unless_protected(*lock_);
+    }
+
+    void leave() { lock_.reset(); }
+
+private:
+    fs::path folder_;
+    std::unique_ptr<FolderLock> lock_;
+};
+
+void bind_lock(py::module_& module)
+{
+    py::class_<LockedFolder>(module, "_LockedFolder")
+        .def(py::init<fs::path>())
+        .def("__enter__", &LockedFolder::enter)
+        .def("__exit__", [](LockedFolder& lock, const py::args&) { lock.leave(); });
+}
+
+/// Findings, and the simulation that they are of.
+struct Watch {
+    std::shared_ptr<Session> session;
+    Findings findings;
+
+    explicit Watch(std::shared_ptr<Session> of)
+        : session(std::move(of)), findings(session->now(), session->opened().scene.time.metrics_interval)
+    {
+    }
+
+    double run(double time, double spent, double longest)
+    {
+        return session->run_observed(time, spent, longest,
+            [&](const StepReport& report, Simulation& simulation) { findings.add(report, simulation); });
+    }
+
+    std::vector<std::tuple<std::string, double, double, std::string>> results()
+    {
+        std::vector<std::tuple<std::string, double, double, std::string>> all;
+        for (const Measurement& m : findings.results(session->now()))
+            all.emplace_back(m.name, m.value, m.spread, m.unit);
+        return all;
+    }
+};
+
+/// Steps that nobody looks at.
+double run_unobserved(Session& session, double time, double spent, double longest)
+{
+    return session.run_observed(time, spent, longest, [](const StepReport&, Simulation&) {});
+}
+
+void bind_findings(py::module_& module)
+{
+    using py::arg;
+    py::class_<Watch>(module, "Findings",
+        "What a study wants to know of a run, from now on: how wrong each step is, how the packing rests, what sensors "
+        "measure.")
+        .def(py::init<std::shared_ptr<Session>>(), arg("simulation"))
+        .def("run", &Watch::run, arg("until"), arg("spent") = 0.0, arg("longest") = infinity,
+            "Makes steps until a time [s], and looks at them; no more where their CPU time [s], with what was spent "
+            "before, is longer than allowed. Returns that time. Raises Incident.")
+        .def("results", &Watch::results, "All so far: name, value, spread, unit; those of the sensors last.")
+        .def(
+            "profile", [](const Watch& w) { return w.findings.profile(); },
+            "Mean force by walls and through ten level cuts, by the weight of the spheres at the beginning.")
+        .def_property_readonly(
+            "contact_updates", [](const Watch& w) { return w.findings.contact_updates(); }, "contacts x sweeps so far")
+        .def(
+            "velocity_error", [](Watch& w) { return velocity_error_of_next_step(w.session->change()); },
+            "How far the velocities are after the next step from those of the same step solved to the end: root of the "
+            "mean square [m/s]. The simulation is left where it is.");
+    module.def("_run_unobserved", &run_unobserved, arg("simulation"), arg("until"), arg("spent"), arg("longest"));
+    module.def("_study_units", [](Session& session) {
+        const StudyUnits units(session.now());
+        using py::literals::operator""_a;
+        return py::dict("diameter"_a = units.diameter, "acceleration"_a = units.acceleration, "speed"_a = units.speed,
+            "mass"_a = units.mass);
+    });
+}
+
 void bind_simulation(py::module_& module)
 {
     using py::arg;
@@ -275,6 +363,8 @@ PYBIND11_MODULE(_core, module)
     bind_report(module);
     bind_wall(module);
     bind_simulation(module);
+    bind_findings(module);
+    bind_lock(module);
     module.def("check", &check, arg("scene"), arg("text"), arg("overrides"));
     module.def("keys", &key_table, arg("table"));
     module.def("scenes", [] {

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 
 namespace talus::python
@@ -55,6 +56,14 @@ public:
 private:
     std::atomic<bool>& flag_;
 };
+
+/// Of this process [s].
+double cpu_time()
+{
+    timespec now{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 /// Before any simulation asked for a number of its own.
 int usual_threads()
@@ -124,21 +133,50 @@ void Session::run_until(double time)
         throw std::invalid_argument(fmt::format("a run in a folder ends at its time.duration, {:.6g} s, and not at "
                                                 "{:.6g} s; set={{'time.duration': …}} changes that",
             simulation.duration, time));
-    {
-        const Raised flag(stepping_);
-        const py::gil_scoped_release free;
-        omp_set_num_threads(threads_);
-        if (loop_) {
-            loop_->run_until(std::min(time, simulation.duration), CtrlC());
-        } else {
+    if (loop_)
+        make_steps([&] { loop_->run_until(std::min(time, simulation.duration), CtrlC()); });
+    else
+        make_steps([&] {
             StepHooks hooks;
             hooks.before_step = CtrlC();
             hooks.after_step = [this](const StepReport& report) { after_step(report); };
             hooks.on_phase = [this](Phase phase) { clock_.begin(phase); };
             last_ = talus::run_until(simulation, time, hooks, std::move(last_));
-        }
+        });
+}
+
+double Session::run_observed(
+    double time, double spent, double longest, const std::function<void(const StepReport&, Simulation&)>& observe)
+{
+    Simulation& simulation = change();
+    if (loop_) throw std::invalid_argument("a run in a folder is observed by what it writes there");
+    make_steps([&] {
+        double before = 0.0;
+        StepHooks hooks;
+        hooks.before_step = [&, go_on = CtrlC()]() mutable {
+            const bool goes_on = spent <= longest && go_on();
+            before = cpu_time();
+            return goes_on;
+        };
+        hooks.after_step = [&](const StepReport& report) {
+            spent += cpu_time() - before;
+            if (!simulation.incident_policy.stops(report)) observe(report, simulation);
+        };
+        last_ = talus::run_until(simulation, time, hooks, std::move(last_));
+    });
+    return spent;
+}
+
+void Session::make_steps(const std::function<void()>& make)
+{
+    {
+        const Raised flag(stepping_);
+        const py::gil_scoped_release free;
+        omp_set_num_threads(threads_);
+        make();
     }
     if (PyErr_Occurred()) throw py::error_already_set();
+    const Simulation& simulation = opened_.simulation;
     if (!simulation.incident_policy.stops(report())) return;
     const auto names = names_of(simulation.model.walls);
     const auto& incidents = report().bodies.incidents;

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -53,6 +54,12 @@ public:
     /// @throws Stopped, Busy, OutputError, pybind11::error_already_set
     void run_until(double time);
 
+    /// The same outside a folder, with `observe` in place of its own statistics and samples.
+    /// @param spent CPU time of the steps before [s]; @param longest after so much of it no step is begun [s]
+    /// @return the CPU time with that of these steps [s]
+    double run_observed(
+        double time, double spent, double longest, const std::function<void(const StepReport&, Simulation&)>& observe);
+
     void save(const std::filesystem::path& file);
     std::string state();                    ///< all that changes, but what sensors have seen and the statistics
     void restore(const std::string& state); ///< as `state` gave it for the same scene, perhaps under another setting
@@ -91,7 +98,7 @@ private:
     std::int64_t generation_ = 0, order_generation_ = -1;
     std::atomic<bool> stepping_ = false;
 
-    void begin_change();
+    void make_steps(const std::function<void()>& make);
     void after_step(const StepReport& report);
     void put_back(Archive& archive);
     void persist(Archive& archive);

@@ -13,6 +13,12 @@ namespace talus
 /// Gathers what the cases of a sweep found into a table and a page.
 [[noreturn]] void gather_cases(const CommandLine& line);
 
+/// Runs a scene under many settings from the same state, and tells what each costs and how wrong it is.
+[[noreturn]] void study_scene(const CommandLine& line);
+
+/// Prints the keys of a study file.
+[[noreturn]] void tell_study_keys();
+
 /// Finds the values of keys that give what was measured.
 [[noreturn]] void calibrate_scenes(const CommandLine& line);
 

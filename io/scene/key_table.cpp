@@ -6,7 +6,7 @@
 #include "io/text/sentence.hpp"
 #include "io/text/toml_text.hpp"
 #include "io/text/toml_value.hpp"
-#include "scenarios/study.hpp"
+#include "scenarios/scene.hpp"
 
 #include <fmt/format.h>
 
@@ -113,10 +113,7 @@ std::string text_of(const Section& section)
 std::string key_table(const std::string& table)
 {
     Sections sections;
-    if (table == "study")
-        sections.add(table, scene::Study());
-    else
-        sections.add("", scene::Scene());
+    sections.add("", scene::Scene());
     std::string text;
     std::vector<std::string_view> tables;
     for (const Section& section : sections.list()) {

@@ -174,12 +174,11 @@ scene::Scene read_tables(const toml::table& root, Places& places)
     return scene;
 }
 
-scene::Study read_study_tables(const toml::table& root, Places& places)
+scene::MeasuredSettings read_measured_tables(const toml::table& root, Places& places)
 {
-    scene::Study study;
-    if (root.contains("vary")) study.vary.clear();
-    SceneReader(places).read_table(root, {"", "the study"}, study);
-    return study;
+    scene::MeasuredSettings measured;
+    SceneReader(places).read_table(root, {"", "the file"}, measured);
+    return measured;
 }
 
 } // namespace talus

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "scenarios/scene.hpp"
-#include "scenarios/study.hpp"
 
 #include <toml++/toml.h>
 
@@ -19,8 +18,8 @@ using Places = std::map<std::string, std::string>;
 /// @throws InputError on the first key that is unknown, missing or not allowed
 scene::Scene read_tables(const toml::table& root, Places& places);
 
-/// Reads every key of a study from the tables of a file, and notes where each stands.
-/// @throws InputError on the first key that is unknown, missing or not allowed
-scene::Study read_study_tables(const toml::table& root, Places& places);
+/// Reads the settings that accuracy chooses from.
+/// @throws InputError as above
+scene::MeasuredSettings read_measured_tables(const toml::table& root, Places& places);
 
 } // namespace talus

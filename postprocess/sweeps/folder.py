@@ -63,10 +63,10 @@ class SweepFolder:
         return sorted(keys, key=lambda key: key == "seed")
 
 
-def write_whole(path, text):
+def write_whole(path, content):
     """A file that is there whole or not at all."""
     beside = path.with_name(path.name + ".tmp")
-    beside.write_text(text, encoding="utf-8")
+    beside.write_bytes(content if isinstance(content, bytes) else content.encode())
     os.replace(beside, path)
 
 

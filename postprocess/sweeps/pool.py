@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs cases on this machine, some at a time.
+"""Runs processes on this machine, some at a time.
 
-Each case is a process of `talus run DIR --case N`, which knows by itself what there is to do. Cases have a process group
+The case of a sweep is a process of `talus run DIR --case N`, which knows by itself what there is to do. All have a process group
 of their own, so that the Ctrl-C of a terminal reaches the pool alone, which then asks each of them to stop, once.
 """
 import contextlib
@@ -28,18 +28,16 @@ def stop(number, _):
 
 
 def ask_to_stop_with_parent():
-    """Whoever kills the pool, its cases write a checkpoint and stop."""
+    """Whoever kills the pool, its processes stop; cases write a checkpoint."""
     ctypes.CDLL(None).prctl(1, signal.SIGTERM)  # PR_SET_PDEATHSIG
 
 
 class Process:
-    """A case that is being run."""
+    """A process of the pool."""
 
-    def __init__(self, talus, folder, number):
-        self.folder, self.number = folder, number
+    def __init__(self, words, **options):
         self.complaints = tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace")  # noqa: SIM115  closed in end()
-        self.process = subprocess.Popen([talus, "run", folder.path, "--case", str(number), "--quiet"], stdin=subprocess.DEVNULL, stderr=self.complaints,
-                                        process_group=0, preexec_fn=ask_to_stop_with_parent)
+        self.process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stderr=self.complaints, process_group=0, preexec_fn=ask_to_stop_with_parent, **options)
         self.descriptor = os.pidfd_open(self.process.pid)
 
     def end(self):
@@ -50,6 +48,14 @@ class Process:
             file.seek(0)
             lines = file.read().strip().splitlines()
         return code, lines[-1] if lines else f"ended with {code}"
+
+
+class Case(Process):
+    """A case that is being run."""
+
+    def __init__(self, talus, folder, number):
+        self.folder, self.number = folder, number
+        super().__init__([talus, "run", folder.path, "--case", str(number), "--quiet"])
 
 
 class Progress:
@@ -96,33 +102,47 @@ def run_all(talus, jobs, folders, quiet=False):
     before = {(folder.path, number): state_of(folder.run_of(number))[0] != "unfinished" for folder, number in waiting}
     progress = Progress(len(waiting), sum(before.values()), quiet)
     waiting.sort(key=lambda one: not before[one[0].path, one[1]])  # what is settled first, as that takes no time
-    waiting.reverse()
-    running, complaints = {}, []
+    complaints = []
+
+    def ended(case):
+        code, said = case.end()
+        if code != 0:
+            complaints.append(f"case {case.number} of {case.folder.path}: {said}")
+            return
+        failed = state_of(case.folder.run_of(case.number))[0] == "failed"
+        progress.add(not before[case.folder.path, case.number], failed)
+
+    try:
+        run_processes(waiting, jobs, lambda one: Case(talus, *one), ended, progress.tell)
+    finally:
+        progress.finish()
+    return complaints
+
+
+def run_processes(jobs, at_once, begin, ended, tell=lambda running: None):
+    """Runs all jobs, so many at a time: `begin(job)` returns a Process, `ended(process)` is called when it is over, in any
+    order, and `tell(running)` now and then.
+
+    Raises Stopped when a signal came, after what ran was asked to stop and has ended.
+    """
+    waiting, running = list(reversed(jobs)), {}
     poll = select.poll()
     with signals_stop():
         try:
             while waiting or running:
-                while waiting and len(running) < jobs:
-                    process = Process(talus, *waiting.pop())
+                while waiting and len(running) < at_once:
+                    process = begin(waiting.pop())
                     running[process.descriptor] = process
                     poll.register(process.descriptor, select.POLLIN)
                 for descriptor, _ in poll.poll(POLL):
-                    process = running.pop(descriptor)
                     poll.unregister(descriptor)
-                    code, said = process.end()
-                    if code != 0:
-                        complaints.append(f"case {process.number} of {process.folder.path}: {said}")
-                        continue
-                    failed = state_of(process.folder.run_of(process.number))[0] == "failed"
-                    progress.add(not before[process.folder.path, process.number], failed)
-                progress.tell(len(running))
+                    ended(running.pop(descriptor))
+                tell(len(running))
         finally:
             for process in running.values():
                 process.process.terminate()
             for process in running.values():
                 process.end()
-            progress.finish()
-    return complaints
 
 
 @contextlib.contextmanager

@@ -11,7 +11,7 @@ const BRIGHTEST = 210; // of 255 colours: what comes after is hard to see on pap
  * page.
  */
 export class ChartsView {
-  /** @param data groups: id of an element, and its charts; cases: what the points are of, by their numbers */
+  /** @param data groups: id of an element, and its charts; cases: what the points are of, by their numbers, and their pages, if they have any */
   constructor(data) {
     this.data = data;
     this.pointed = null;
@@ -69,7 +69,7 @@ export class ChartsView {
   }
 
   hasPage(id) {
-    return Boolean(this.data.cases?.pages[id]);
+    return Boolean(this.data.cases?.pages?.[id]);
   }
 
   /** Marks a case, or none, and tells of it beside the pointer. */
@@ -81,7 +81,8 @@ export class ChartsView {
     }
     this.tip.hidden = id === null || !event;
     if (this.tip.hidden) return;
-    this.tip.replaceChildren(h("b", {}, this.data.cases.names[id]), h("div", {}, words), h("small", {}, this.hasPage(id) ? "a click opens its page" : "it has no page"));
+    const { pages } = this.data.cases;
+    this.tip.replaceChildren(h("b", {}, this.data.cases.names[id]), h("div", {}, words), ...(pages ? [h("small", {}, this.hasPage(id) ? "a click opens its page" : "it has no page")] : []));
     this.tip.style.left = `${Math.max(8, Math.min(event.clientX + 14, innerWidth - this.tip.offsetWidth - 8))}px`;
     this.tip.style.top = `${event.clientY + 14 + this.tip.offsetHeight > innerHeight ? event.clientY - 14 - this.tip.offsetHeight : event.clientY + 14}px`;
   }

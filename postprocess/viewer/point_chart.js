@@ -7,6 +7,12 @@ import { h, schemeColour } from "./dom.js";
 const HEIGHT = 190;
 const REACH = 14; // px, within which a point is meant
 
+/** The whole powers of ten round two numbers. */
+function decades([low, high]) {
+  const from = Math.floor(Math.log10(low) - 0.05);
+  return [10 ** from, 10 ** Math.max(from + 1, Math.ceil(Math.log10(high) + 0.05))];
+}
+
 /**
  * A chart of points with their errors, and of lines. What it shows:
  *
@@ -16,7 +22,8 @@ const REACH = 14; // px, within which a point is meant
  *     shade                   [from, to] along x
  *     reach                   { x, y }: numbers that must be on the axes
  *     labels                  words in place of the numbers 0, 1, … along x
- *     log                     whether x is logarithmic
+ *     log, logUp              whether x, or y, is logarithmic; what is not above 0 lies at the foot
+ *     ring                    id of a point with a ring round it
  *     note                    a sentence below
  */
 export class PointChart {
@@ -30,7 +37,7 @@ export class PointChart {
 
   draw(width) {
     this.u?.destroy();
-    const [horizontal, vertical] = axes(false);
+    const [horizontal, vertical] = axes(this.logUp);
     const { labels } = this;
     Object.assign(horizontal, { label: this.across, labelFont: "11px system-ui, sans-serif", labelSize: 15, size: 24, space: 44 });
     if (labels) Object.assign(horizontal, { splits: () => labels.map((_, n) => n), values: () => labels });
@@ -41,7 +48,7 @@ export class PointChart {
       height: HEIGHT,
       legend: { show: false },
       cursor: { drag: { setScale: false, x: false, y: false }, points: { show: false }, x: false, y: false },
-      scales: { x: { time: false, distr: this.log ? 3 : 1, range: () => this.padded(x) }, y: { range: (u) => roomy(u, ...y) } },
+      scales: { x: { time: false, distr: this.log ? 3 : 1, range: () => (this.logUp ? decades(x) : this.padded(x)) }, y: this.logUp ? { distr: 3, range: () => decades(y) } : { range: (u) => roomy(u, ...y) } },
       axes: [horizontal, vertical],
       series: [{}, { paths: () => null, points: { show: false } }],
       hooks: { draw: [(u) => this.paint(u)] },
@@ -63,14 +70,17 @@ export class PointChart {
     const { points = {}, lines = [], labels } = this;
     if (axis === "x" && labels) return [0, labels.length - 1];
     const ends = [...(points[axis] ?? []), ...lines.flatMap((line) => line[axis]), ...(this.reach?.[axis] ?? []), ...(axis === "x" ? (this.shade ?? []) : [])];
-    if (axis === "y") points.error?.forEach((one, k) => Number.isFinite(one) && Number.isFinite(points.y[k]) && ends.push(points.y[k] - one, points.y[k] + one));
-    const known = ends.filter((one) => Number.isFinite(one));
+    if (axis === "y" && !this.logUp) points.error?.forEach((one, k) => Number.isFinite(one) && Number.isFinite(points.y[k]) && ends.push(points.y[k] - one, points.y[k] + one));
+    const known = ends.filter((one) => Number.isFinite(one) && (one > 0 || axis === "x" || !this.logUp));
     return known.length ? [known.reduce((a, b) => Math.min(a, b)), known.reduce((a, b) => Math.max(a, b))] : [0, 1];
   }
 
   padded([low, high]) {
+    if (this.log) {
+      const room = high > low ? (high / low) ** 0.05 : 2;
+      return [low / room, high * room];
+    }
     if (this.labels) return [low - 0.5, high + 0.5];
-    if (this.log) return [low / (high / low) ** 0.05, high * (high / low) ** 0.05];
     const room = 0.05 * (high - low) || 0.1 * Math.abs(high) || 1;
     return [low - room, high + room];
   }
@@ -104,7 +114,7 @@ export class PointChart {
     pen.beginPath();
     pen.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
     pen.clip();
-    const at = (x, y) => [u.valToPos(x, "x", true), u.valToPos(y, "y", true)];
+    const at = (x, y) => [u.valToPos(x, "x", true), u.valToPos(this.logUp ? Math.max(y, u.scales.y.min) : y, "y", true)];
     if (this.shade) {
       const [from, to] = this.shade.map((x) => u.valToPos(x, "x", true));
       pen.fillStyle = schemeColour("band");
@@ -148,9 +158,12 @@ export class PointChart {
       pen.beginPath();
       pen.arc(left, top, marked ? 1.5 * size : size, 0, 2 * Math.PI);
       pen.fill();
-      if (!marked) return;
       pen.strokeStyle = schemeColour("ink");
       pen.lineWidth = 1.5 * devicePixelRatio;
+      if (marked) pen.stroke();
+      if (!id || id[k] !== this.ring) return;
+      pen.beginPath();
+      pen.arc(left, top, 2.1 * size, 0, 2 * Math.PI);
       pen.stroke();
     };
     x.forEach((_, k) => one(k, false));

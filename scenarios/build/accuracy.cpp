@@ -3,6 +3,7 @@
 
 #include "scenarios/scene_error.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 
@@ -32,16 +33,17 @@ double share_of(const std::string& text)
     return 0.01 * number;
 }
 
-const MeasuredSetting& cheapest_within(double error, Stabilisation stabilisation)
+const scene::MeasuredSetting& cheapest_within(double error, const scene::Scene& scene)
 {
-    const MeasuredSetting* best = nullptr;
-    for (const MeasuredSetting& measured : measured_settings()) {
-        if (measured.stabilisation != stabilisation) continue;
+    const char* law = stabilisation_of(scene.solver) == Stabilisation::matched ? "matched" : "projected";
+    double least = infinity;
+    for (const scene::MeasuredSetting& measured : scene.measured) {
+        if (measured.stabilisation != law) continue;
         if (measured.error <= error) return measured;
-        best = &measured;
+        least = std::min(least, measured.error);
     }
     throw SceneError(
-        accuracy_key, "'" + percent(error) + "' is finer than what was measured: " + percent(best->error) +
+        accuracy_key, "'" + percent(error) + "' is finer than what was measured: " + percent(least) +
                           " is the least with this stabilisation; 'talus study' finds settings for a scene");
 }
 
@@ -70,33 +72,17 @@ std::string left_as_it_is(const scene::Scene& scene)
 
 } // namespace
 
-const std::vector<MeasuredSetting>& measured_settings()
-{
-    using enum Stabilisation;
-    static const std::vector<MeasuredSetting> settings = {
-        {matched, {4.0, 0, 1e-2}, 0.64, "creep of column_100", 0.32},
-        {matched, {2.0, 0, 1e-2}, 0.133, "creep of column_100", 0.51},
-        {matched, {1.0, 0, 5e-2}, 0.0182, "overlap_95 of heavy_on_light", 0.90},
-        {matched, {1.0, 4, 1e-2}, 0.0096, "overlap_95 of heavy_on_light", 1.22},
-        {matched, {1.0, 10, 1e-2}, 0.0053, "overlap_95 of heavy_on_light", 1.87},
-        {projected, {4.0, 0, 1e-2}, 0.0742, "overlap_95 of heavy_on_light", 0.48},
-        {projected, {2.0, 0, 1e-2}, 0.0223, "creep of column_20", 0.84},
-        {projected, {1.0, 0, 1e-2}, 0.0079, "velocity_error of silo_at_rest", 1.72},
-        {projected, {0.5, 0, 1e-2}, 0.0048, "velocity_error of silo_at_rest", 3.70},
-    };
-    return settings;
-}
-
 AccuracyChoice choose_accuracy(const scene::Scene& scene)
 {
     if (scene.accuracy.empty()) return {};
     const double asked = share_of(scene.accuracy);
-    const MeasuredSetting& measured = cheapest_within(asked, stabilisation_of(scene.solver));
+    const scene::MeasuredSetting& measured = cheapest_within(asked, scene);
+    const RunSetting setting = {measured.step_factor, static_cast<int>(measured.min_sweeps), measured.tolerance};
     char cost[80];
     std::snprintf(cost, sizeof cost, "; %.2g times the usual cost", measured.cost);
-    return {measured.setting, "accuracy " + percent(asked) + ": " + described(measured.setting) + ", at worst " +
-                                  percent(measured.error) + " wrong where it was studied (" + measured.worst + ")" +
-                                  cost + left_as_it_is(scene)};
+    return {setting, "accuracy " + percent(asked) + ": " + described(setting) + ", at worst " +
+                         percent(measured.error) + " wrong where it was studied (" + measured.worst + ")" + cost +
+                         left_as_it_is(scene)};
 }
 
 } // namespace talus

@@ -27,7 +27,7 @@ class Stubs(unittest.TestCase):
             if isinstance(node, ast.ClassDef):
                 there = {name for name in vars(getattr(talus._core, node.name))
                          if not name.startswith("__") and not name.startswith("_pybind11")}
-                self.assertEqual(names_in(node.body) - {"__init__"}, there, node.name)
+                self.assertEqual({name for name in names_in(node.body) if not name.startswith("__")}, there, node.name)
 
     def test_everything_public_has_words(self):
         for one in (talus.Simulation, talus.Run):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Opens the page of a sweep in headless Chromium, points at a case, and follows the link to its page.
+"""Opens the page of a sweep in headless Chromium, points at a case, and follows the link to its page; then that of a study.
 
     tests/sweeps/check_sweep_page.py TALUS
 
@@ -16,6 +16,8 @@ from small_sweep import ROOT, SWEEP, call, skip, write_sweep
 
 sys.path.insert(0, str(ROOT / "tests/support"))
 import check_viewer  # noqa: E402  found by the line above
+from studies.page import study_page  # noqa: E402
+from studies.result import compare  # noqa: E402
 from check_viewer import SIZES, Browser  # noqa: E402
 
 if check_viewer.webdriver:
@@ -57,6 +59,29 @@ def check(browser, page):
     browser.wait(lambda: browser.run("return document.documentElement.dataset.ready") == "all", "the page of the run is not ready")
 
 
+def row(setting, cpu, overlap):
+    return {"setting": setting, "seed": 1, "status": "done", "cpu_s_per_s": cpu, "contact_updates_per_s": 0.0, "memory_B": 0.0,
+            "findings": [{"name": "overlap_95", "value": overlap, "spread": 0.0, "unit": "d"}], "profile": []}
+
+
+def check_study(browser, page):
+    """Error against cost on logarithmic axes, with an error of 0 at the foot."""
+    names = ["reference", "default", "projected", "exact"]
+    rows = [row("reference", 90.0, 1e-7), row("default", 2.0, 3e-3), row("projected", 8.0, 4e-5), row("exact", 8.5, 0.0)]
+    page.write_text(study_page(compare(names, rows), "Four settings", "made up"), encoding="utf-8")
+    browser.open(page.as_uri())
+    browser.wait(lambda: browser.run("return Boolean(talus.charts.list[0].u)"), "no chart is drawn")
+    assert browser.run("return talus.charts.list.map((one) => one.title)") == ["overlap_95"]
+    scales = browser.run("const { x, y } = talus.charts.list[0].u.scales; return [x.distr, x.min, x.max, y.distr, y.min, y.max].map((one) => Number(one.toPrecision(6)))")
+    assert scales == [3, 1, 10, 3, 1e-5, 0.01], scales
+    case, left, top = browser.run(PLACES, 0)[1]
+    point(browser, left, top)
+    assert browser.run("return talus.pointed") == case == 2
+    tip = browser.run("return document.querySelector('.tip').innerText")
+    assert "projected" in tip and "page" not in tip, tip
+    assert [entry for entry in browser.complaints() if "favicon" not in entry] == []
+
+
 def main():
     if not check_viewer.webdriver or not shutil.which("chromium") or not shutil.which("chromedriver"):
         skip("there is no chromium, chromium-driver or python3-selenium")
@@ -67,6 +92,7 @@ def main():
         browser = Browser(name)
         try:
             check(browser, Path(name) / "sweep/sweep.html")
+            check_study(browser, Path(name) / "study.html")
         finally:
             browser.driver.quit()
 

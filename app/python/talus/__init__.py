@@ -26,7 +26,7 @@ except ImportError as _error:
     _reason = str(_error)
 
     def __getattr__(name):
-        if name in ("Simulation", "check", "keys", "resume", "scenes", "__version__"):
+        if name in ("Findings", "Simulation", "check", "keys", "resume", "scenes", "__version__"):
             raise ImportError(f"talus.{name} needs the compiled module, which is not here ({_reason}); "
                               "talus.Run works without")
         raise AttributeError(f"module 'talus' has no attribute '{name}'")
@@ -34,7 +34,7 @@ else:
     # Scenes lie in share/talus beside lib/python3/dist-packages, where it is installed, else in the source tree.
     _share = _Path(_os.path.abspath(_core.__file__)).parents[4] / "share" / "talus"
     _core.set_own_files(_share if (_share / "scenarios").is_dir() else _core.source_folder)
-    from ._core import __version__, scenes
+    from ._core import Findings, __version__, scenes
     from .simulation import Simulation, check, keys, resume
 
-    __all__ += ["Simulation", "check", "keys", "resume", "scenes"]
+    __all__ += ["Findings", "Simulation", "check", "keys", "resume", "scenes"]

@@ -18,6 +18,7 @@ from .scene_text import scene_text, toml_value
 from .view import View
 
 Scene = str | os.PathLike | Mapping
+Changes = Mapping[str, Any] | Iterable[str] | None  # a dict, or texts as --set takes them
 
 
 def read(scene: Scene, use: Callable[[str, str | None], Any]) -> Any:
@@ -36,11 +37,14 @@ def read(scene: Scene, use: Callable[[str, str | None], Any]) -> Any:
     return use(os.fspath(scene), None)
 
 
-def overrides(changes: Mapping[str, Any] | None) -> list[str]:
-    return [f"{key}={toml_value(value)}" for key, value in (changes or {}).items()]
+def overrides(changes: Changes) -> list[str]:
+    """As --set has them."""
+    if isinstance(changes, Mapping):
+        return [f"{key}={toml_value(value)}" for key, value in changes.items()]
+    return list(changes or ())
 
 
-def check(scene: Scene, set: Mapping[str, Any] | None = None) -> dict[str, Any]:
+def check(scene: Scene, set: Changes = None) -> dict[str, Any]:
     """What `talus check` tells of a scene, as a dict: spheres, step_length [s], diameters [m] (least, mean, largest),
     overlaps, warnings, resolved (the scene as TOML with every key) and more. Raises SceneError where it is wrong."""
     return read(scene, lambda path, text: _core.check(path, text, overrides(set)))
@@ -51,7 +55,7 @@ def keys(table: str = "") -> str:
     return _core.keys(table)
 
 
-def resume(place: str | os.PathLike, set: Mapping[str, Any] | None = None, threads: int = 0) -> Simulation:
+def resume(place: str | os.PathLike, set: Changes = None, threads: int = 0) -> Simulation:
     """The run in a folder, which goes on there from its checkpoint, or what `save` kept in a file.
 
     `set` may change what `talus resume --set` may.
@@ -65,7 +69,7 @@ class Simulation(_core.Simulation):
     """A scene, built; its steps are made by step() or run(), and between them it can be looked at and changed.
 
     scene    name of a supplied scene, path, TOML text, or dict with the keys of a scene file
-    set      changes: {"contact.glass-glass.friction": 0.3}
+    set      changes: {"contact.glass-glass.friction": 0.3}, or texts as --set takes them
     threads  for the steps; 0: all. The bits are the same for any number.
     out      a folder into which goes what `talus run` writes; close(), or leaving a `with`, ends the run in it
     force    replaces the files of a run in that folder
@@ -74,7 +78,7 @@ class Simulation(_core.Simulation):
     Lengths are m, times s, forces N; arrays are numpy's, float64, spheres in the order of their ids.
     """
 
-    def __init__(self, scene: Scene, set: Mapping[str, Any] | None = None, threads: int = 0,
+    def __init__(self, scene: Scene, set: Changes = None, threads: int = 0,
                  out: str | os.PathLike | None = None, force: bool = False, state: bytes | None = None) -> None:
         read(scene, lambda path, text: super(Simulation, self).__init__(
             path, text, overrides(set), threads, None if out is None else os.fspath(out), force))
@@ -197,6 +201,6 @@ class Simulation(_core.Simulation):
         places = numpy.atleast_2d(numpy.asarray(positions, dtype=float))
         return numpy.array([self._add(place, diameter, material, velocity) for place in places])
 
-    def copy(self, set: Mapping[str, Any] | None = None, threads: int = 0) -> Simulation:
+    def copy(self, set: Changes = None, threads: int = 0) -> Simulation:
         """Another simulation of the scene as it is now, perhaps under another setting. Sensors begin anew."""
         return Simulation(self.resolved, set, threads, state=self.state())

@@ -112,27 +112,6 @@ TEST_CASE("what was killed owns its folder no more", "[app][output]")
     CHECK_FALSE(place.exists("out/talus.lock"));
 }
 
-TEST_CASE("a study does not take a file for its folder", "[app][output]")
-{
-    const Workplace place;
-    place.write("scene.toml", replaced(beads_in_a_box, "duration = 0.05", "duration = 1.0"));
-    place.write("mine", "ten years of work");
-    const Outcome outcome = place.talus("study scene.toml -o mine");
-    CHECK(outcome.exit_code == 2);
-    CHECK_THAT(outcome.err, Catch::Matchers::StartsWith("mine: is a file"));
-}
-
-TEST_CASE("a study owns its folder", "[app][output]")
-{
-    const Workplace place;
-    place.write("scene.toml", replaced(beads_in_a_box, "duration = 0.05", "duration = 1e3"));
-    const std::string study = "study scene.toml -o out --threads 1";
-    const Outcome outcome =
-        while_it_runs(place, "$TALUS " + study + "; echo $?; $TALUS " + study + " --force; echo $?", study);
-    CHECK(outcome.out == "2\n2\n");
-    CHECK_THAT(outcome.err, Contains("out: process "));
-}
-
 TEST_CASE("files that are there already are replaced with --force only", "[app][output]")
 {
     const Workplace place;

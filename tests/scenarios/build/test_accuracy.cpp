@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scenarios/build/accuracy.hpp"
 #include "scenarios/build/build_scene.hpp"
 #include "scenarios/build/step_choice.hpp"
 #include "scenarios/scene_error.hpp"
+#include "tests/scenarios/measured_settings.hpp"
 #include "tests/scenarios/small_scene.hpp"
 #include "tests/support/study_csv.hpp"
 
@@ -17,9 +17,18 @@
 using namespace talus;
 using namespace talus::test;
 using Catch::Matchers::Contains;
+using scene::MeasuredSetting;
 
 namespace
 {
+
+/// A scene that has them to choose from.
+scene::Scene scene_to_choose_for()
+{
+    auto scene = small_scene();
+    scene.measured = measured_settings();
+    return scene;
+}
 
 /// What a study found of one setting.
 struct Found {
@@ -46,8 +55,8 @@ const std::map<std::string, std::string>& row_of(const StudyTable& table, const 
 /// As the studies call it.
 std::string name_of(const MeasuredSetting& measured)
 {
-    std::string name = measured.stabilisation == Stabilisation::matched ? "matched" : "projected";
-    const RunSetting& s = measured.setting;
+    std::string name = measured.stabilisation;
+    const MeasuredSetting& s = measured;
     char step[40] = "";
     if (s.step_factor != 1.0) std::snprintf(step, sizeof step, ", step=x%g", s.step_factor);
     name += step;
@@ -110,7 +119,7 @@ TEST_CASE("the settings behind accuracy are what the studies found", "[accuracy]
 
 TEST_CASE("dearer settings of the table are more accurate", "[accuracy]")
 {
-    for (const auto law : {Stabilisation::matched, Stabilisation::projected}) {
+    for (const char* law : {"matched", "projected"}) {
         const MeasuredSetting* before = nullptr;
         for (const MeasuredSetting& measured : measured_settings()) {
             if (measured.stabilisation != law) continue;
@@ -127,8 +136,8 @@ TEST_CASE("dearer settings of the table are more accurate", "[accuracy]")
 TEST_CASE("the cheapest setting that is accurate enough is taken", "[accuracy]")
 {
     for (const MeasuredSetting& measured : measured_settings()) {
-        auto scene = small_scene();
-        scene.solver.stabilisation = measured.stabilisation == Stabilisation::matched ? "matched" : "projected";
+        auto scene = scene_to_choose_for();
+        scene.solver.stabilisation = measured.stabilisation;
         scene.accuracy = std::to_string(100.0 * measured.error + 1e-5) + " %";
         auto asking_nothing = scene;
         asking_nothing.accuracy = "";
@@ -136,18 +145,17 @@ TEST_CASE("the cheapest setting that is accurate enough is taken", "[accuracy]")
         const auto [chosen, report] = build_scene(scene);
         INFO(scene.accuracy << ": " << report.accuracy);
         const double by_speed = 0.1 * chosen.model.min_diameter / choose_step(scene, chosen).fastest_speed;
-        CHECK(
-            chosen.model.time_step == Approx(std::min(measured.setting.step_factor * usual.model.time_step, by_speed)));
+        CHECK(chosen.model.time_step == Approx(std::min(measured.step_factor * usual.model.time_step, by_speed)));
         CHECK(chosen.model.solver.min_sweeps ==
-              (measured.setting.min_sweeps > 0 ? measured.setting.min_sweeps : usual.model.solver.min_sweeps));
-        CHECK(chosen.model.solver.tolerance == measured.setting.tolerance);
+              (measured.min_sweeps > 0 ? measured.min_sweeps : usual.model.solver.min_sweeps));
+        CHECK(chosen.model.solver.tolerance == measured.tolerance);
         CHECK_THAT(report.accuracy, Contains(measured.worst));
     }
 }
 
 TEST_CASE("a coarse accuracy leaves the fastest sphere its tenth of a diameter in a step", "[accuracy]")
 {
-    auto scene = small_scene();
+    auto scene = scene_to_choose_for();
     scene.fill[0].velocity = Vec3(0, 0, -30.0);
     const Simulation usual = build_scene(scene).simulation;
     scene.accuracy = "100%";
@@ -156,7 +164,7 @@ TEST_CASE("a coarse accuracy leaves the fastest sphere its tenth of a diameter i
 
 TEST_CASE("what a scene sets itself stands, whatever its accuracy", "[accuracy]")
 {
-    auto scene = small_scene();
+    auto scene = scene_to_choose_for();
     scene.accuracy = "100%";
     scene.time.step = {1e-4, ""};
     scene.solver.min_sweeps = 7;
@@ -170,7 +178,7 @@ TEST_CASE("what a scene sets itself stands, whatever its accuracy", "[accuracy]"
 
 TEST_CASE("without a wish for accuracy a scene runs as usual", "[accuracy]")
 {
-    const auto [simulation, report] = build_scene(small_scene());
+    const auto [simulation, report] = build_scene(scene_to_choose_for());
     CHECK(report.accuracy.empty());
     CHECK(simulation.model.solver.min_sweeps == 2);
     CHECK(simulation.model.solver.tolerance == 1e-2);
@@ -178,7 +186,7 @@ TEST_CASE("without a wish for accuracy a scene runs as usual", "[accuracy]")
 
 TEST_CASE("an accuracy that is none is refused", "[accuracy]")
 {
-    auto scene = small_scene();
+    auto scene = scene_to_choose_for();
     for (const char* text : {"1", "0%", "-1%", "101%", "1%%", "%", "one%", "nan%", "1% "}) {
         scene.accuracy = text;
         INFO(text);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/build/build_scene.hpp"
+#include "tests/scenarios/measured_settings.hpp"
 #include "tests/scenarios/small_scene.hpp"
 
 #include <catch2/catch.hpp>
@@ -127,6 +128,7 @@ TEST_CASE("contacts of tall columns are rigid where nothing flows", "[solver_cho
     const int change = GENERATE(range(0, 5));
     if (change == 0) tall.contact[0].stiffness = 1e4;
     if (change == 1) tall.pour.push_back(small_pour());
+    tall.measured = test::measured_settings();
     if (change == 2) tall.accuracy = "2%";
     if (change == 3) tall.solver.pressure_scaling = {false, ""};
     if (change == 4) tall.solver.stabilisation = "matched";
@@ -171,6 +173,7 @@ TEST_CASE("the tolerance is fine where a sphere is five hundred times as heavy a
     }
     SECTION("not where it asks for an accuracy")
     {
+        scene.measured = test::measured_settings();
         scene.accuracy = "2%";
         CHECK(solver_of(scene).tolerance == 5e-2);
     }

@@ -13,7 +13,7 @@
 namespace talus
 {
 
-/// Measures in which findings are told, so that they compare from scene to scene. Without gravity, what would be that
+/// Units in which findings are told, so that they compare from scene to scene. Without gravity, what would be that
 /// of gravity is taken from the speeds at the start.
 struct StudyUnits {
     explicit StudyUnits(const Simulation& start);
@@ -25,8 +25,8 @@ struct StudyUnits {
     double grain_energy; ///< m g d of the mean sphere [J]
 };
 
-/// Gathers what a study wants to know of a run, from its start on: every step is added; spheres and contacts are looked
-/// at every so often only.
+/// Gathers what a study (postprocess/study.py) wants to know of a run, from its start on: every step is added; spheres
+/// and contacts are looked at every so often only.
 class Findings
 {
 public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/study/findings.hpp"
+#include "app/python/findings.hpp"
 
-#include "app/study/saved_state.hpp"
+#include "core/base/archive.hpp"
 #include "core/contacts/loads.hpp"
 
 #include <algorithm>
@@ -48,6 +48,19 @@ std::unordered_map<std::int64_t, Vec3> velocities(const State& state)
     std::unordered_map<std::int64_t, Vec3> all;
     for (std::size_t i = 0; i < state.count(); ++i) all[state.id[i]] = state.motion[i].velocity;
     return all;
+}
+
+std::string state_of(Simulation& simulation)
+{
+    Archive archive;
+    simulation.persist_without_sensors(archive);
+    return archive.take_bytes();
+}
+
+void put_back(Simulation& simulation, const std::string& state)
+{
+    Archive archive(state);
+    simulation.persist_without_sensors(archive);
 }
 
 } // namespace
