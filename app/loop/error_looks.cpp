@@ -133,7 +133,7 @@ void ErrorLooks::before_step(const Simulation& simulation)
         ++put_off_;
         return;
     }
-    copy_ = copy_without_sensors(simulation);
+    copy_ = std::make_shared<Simulation>(copy_without_sensors(simulation));
     copy_->model.solver.tolerance = exact_tolerance;
     copy_->model.solver.max_sweeps = static_cast<int>(std::min<double>(sweeps, most_sweeps));
 }

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 #include <limits>
-#include <optional>
+#include <memory>
 #include <vector>
 
 namespace talus
@@ -64,7 +64,7 @@ public:
     void before_step(const Simulation& simulation);
 
     /// Whether the step to come, or just made, is one to look at.
-    bool is_open() const { return copy_.has_value(); }
+    bool is_open() const { return copy_ != nullptr; }
 
     /// After the step, while its contacts are there: makes it on the copy and compares.
     void after_step(const Simulation& simulation, const StepReport& report);
@@ -88,11 +88,11 @@ private:
     std::vector<ErrorLook> looks_;
     ErrorLook latest_;
     std::int64_t made_ = 0, put_off_ = 0;
-    std::int64_t interval_ = 64;     ///< between two looks [steps]
-    double credit_ = 0.0;            ///< what looks may cost now [contact updates]
-    std::int64_t contacts_ = 0;      ///< of the last step
-    int sweeps_ = 0;                 ///< of the last step
-    std::optional<Simulation> copy_; ///< as the step begins
+    std::int64_t interval_ = 64;       ///< between two looks [steps]
+    double credit_ = 0.0;              ///< what looks may cost now [contact updates]
+    std::int64_t contacts_ = 0;        ///< of the last step
+    int sweeps_ = 0;                   ///< of the last step
+    std::shared_ptr<Simulation> copy_; ///< as the step begins; none between steps, when looks may be copied
 };
 
 } // namespace talus

@@ -86,14 +86,18 @@ void print_sensors(const RunSummary& summary)
             else if (!std::isfinite(m.spread))
                 say("  {:<28} {:.5g} {}, from too few samples for a spread\n", name, m.value, m.unit);
             else
-                say("  {:<28} {:.5g} ± {:.2g} {}\n", name, m.value, m.spread, m.unit);
+                say("  {:<28} {:.5g} ± {}{:.2g} {}\n", name, m.value, m.too_few ? "at least " : "", m.spread, m.unit);
         }
+    for (const SensorSummary& sensor : summary.sensors)
+        if (std::ranges::any_of(
+                sensor.results, [](const Measurement& m) { return m.too_few && std::isfinite(m.spread); }))
+            say("  {:<28} {}\n", sensor.name, too_few_samples);
 }
 
 /// What a sensor has to say at the end of a run, and if not all of it are numbers, why.
 SensorSummary summarise(const Sensor& sensor, const scene::SensorTable& table, double time)
 {
-    SensorSummary summary{sensor.name, sensor.results(), ""};
+    SensorSummary summary{sensor.name, sensor.results(), "", std::max(0.0, std::min(table.to, time) - table.from)};
     if (std::ranges::all_of(summary.results, [](const Measurement& m) { return std::isfinite(m.value); }))
         return summary;
     summary.silence = table.from > time

@@ -142,13 +142,23 @@ Json to_json(const std::vector<Explanation>& explanations)
     return json;
 }
 
+/// @param window over which it is averaged [s]
+Json to_json(const Measurement& m, double window)
+{
+    Json json = {{"value", m.value}, {"spread", m.spread}, {"unit", m.unit}};
+    if (!m.independent || !std::isfinite(m.value)) return json;
+    json["independent_samples"] = *m.independent;
+    json["correlation_time"] = window / *m.independent;
+    if (m.too_few) json["caution"] = too_few_samples;
+    return json;
+}
+
 Json to_json(const std::vector<SensorSummary>& sensors)
 {
     Json json = Json::object();
     for (const SensorSummary& sensor : sensors) {
         Json& quantities = json[sensor.name] = Json::object();
-        for (const Measurement& m : sensor.results)
-            quantities[m.name] = {{"value", m.value}, {"spread", m.spread}, {"unit", m.unit}};
+        for (const Measurement& m : sensor.results) quantities[m.name] = to_json(m, sensor.window);
         for (const Measurement& m : sensor.results)
             if (!std::isfinite(m.value)) quantities[m.name]["silence"] = sensor.silence;
     }

@@ -29,7 +29,12 @@ struct SensorSummary {
     std::string name;
     std::vector<Measurement> results;
     std::string silence; ///< why results are not numbers; empty where all are
+    double window = 0.0; ///< over which they are averaged [s]
 };
+
+/// Said of a result whose samples are too few for its spread.
+inline constexpr const char* too_few_samples =
+    "its window holds too few independent samples, so its spread is a lower bound: average for longer";
 
 struct PourSummary {
     std::string name;

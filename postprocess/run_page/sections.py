@@ -76,7 +76,8 @@ def results(run):
             if one.get("value") is not None:
                 unit = "" if one.get("unit") in (None, "1") else {"deg": "°", "kg/s": "kg/s"}.get(one["unit"], one["unit"])
                 cards.append(f"<div class='card'><span>{text(sensor)} · {text(name.replace('_', ' '))}</span>"
-                             f"<b>{text(with_spread(one['value'], one.get('spread')))}&thinsp;<small>{text(unit)}</small></b></div>")
+                             f"<b>{text(with_spread(one['value'], one.get('spread')))}&thinsp;<small>{text(unit)}</small></b>"
+                             + (f"<p>{text(one['caution'])}</p>" if one.get("caution") else "") + "</div>")
         if silent and len(silent) == len(quantities):
             cards.append(f"<div class='card quiet'><span>{text(sensor)}</span><p>{text(silent[0])}</p></div>")
     if not cards:
