@@ -75,9 +75,11 @@ def results(run):
         for name, one in quantities.items():
             if one.get("value") is not None:
                 unit = "" if one.get("unit") in (None, "1") else {"deg": "°", "kg/s": "kg/s"}.get(one["unit"], one["unit"])
+                told = with_spread(one["value"], one.get("spread"))
+                if one.get("caution"):  # the sentence stands with the errors of the run
+                    told = told.replace("±", "± at least")
                 cards.append(f"<div class='card'><span>{text(sensor)} · {text(name.replace('_', ' '))}</span>"
-                             f"<b>{text(with_spread(one['value'], one.get('spread')))}&thinsp;<small>{text(unit)}</small></b>"
-                             + (f"<p>{text(one['caution'])}</p>" if one.get("caution") else "") + "</div>")
+                             f"<b>{text(told)}&thinsp;<small>{text(unit)}</small></b></div>")
         if silent and len(silent) == len(quantities):
             cards.append(f"<div class='card quiet'><span>{text(sensor)}</span><p>{text(silent[0])}</p></div>")
     if not cards:
@@ -150,6 +152,10 @@ def error(run):
                                            + (f" and {number(energy['put_in'])} J put in" if energy.get("put_in") else ""))]
     if momentum:
         rows.append(("Momentum left over", f"{number(momentum['left_over'], 2)} N s, beside {number(momentum['from_gravity'])} N s from gravity"))
+    for sensor, quantities in summary["sensors"].items():
+        told = [one["caution"] for one in quantities.values() if one.get("caution")]
+        if told:
+            rows.append((f"Spread of {sensor}", told[0]))
     rows.append(("Moves over 0.1 d in a step", number(found.get("long_moves"))))
     if sub_steps.get("steps"):
         rows.append(("Steps split", f"{number(sub_steps['steps'])}, into {number(sub_steps['most'])} at most"))
