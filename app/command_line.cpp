@@ -79,6 +79,12 @@ void add_run_options(CLI::App& verb, CommandLine& line)
         ->excludes(quiet);
 }
 
+void add_error_flag(CLI::App& verb, CommandLine& line)
+{
+    verb.add_flag("--error-estimate", line.error_estimate,
+        "Look closer at the error of the solver: for up to 30 % more of the steps' time, instead of 3 %");
+}
+
 void add_page_flags(CLI::App& verb, CommandLine& line)
 {
     verb.add_flag("--report", line.report, "When it is over or stopped, make report.html: a page that plays the run");
@@ -108,6 +114,7 @@ void add_run(CLI::App& app, CommandLine& line)
     verb->add_flag("--force", line.force, "Replace the output folder if it holds an earlier run of Talus");
     verb->add_flag("--relax", line.relax, "Move overlapping spheres apart before the run begins");
     add_run_options(*verb, line);
+    add_error_flag(*verb, line);
     add_page_flags(*verb, line);
     verb->add_option("--case", line.sweep_case, "Bring this case of a sweep, whose folder is SCENE, to its end")
         ->type_name("N")
@@ -129,6 +136,7 @@ void add_resume(CLI::App& app, CommandLine& line)
     verb->add_option("DIR", line.out, "The run's output folder")->required()->type_name("");
     add_change_options(*verb, line);
     add_run_options(*verb, line);
+    add_error_flag(*verb, line);
     add_page_flags(*verb, line);
     verb->footer("Example: talus resume out/hopper --until 5");
     verb->callback([&] { line.verb = CommandLine::Verb::resume; });

@@ -63,10 +63,11 @@ struct CommandLine : SceneRequest {
     int jobs = 0;                  ///< of sweep and calibrate: cases at a time; 0: run none
     bool force = false;
     bool relax = false;
-    bool resolved = false; ///< check prints the resolved scene
-    bool report = false;   ///< a run ends with the page that plays it
-    bool watch = false;    ///< a run is shown in a browser while it goes on
-    int threads = 0;       ///< 0: as many as OpenMP takes, all cores unless its environment says otherwise
+    bool resolved = false;       ///< check prints the resolved scene
+    bool report = false;         ///< a run ends with the page that plays it
+    bool error_estimate = false; ///< a run spends more on what it says of its own error
+    bool watch = false;          ///< a run is shown in a browser while it goes on
+    int threads = 0;             ///< 0: as many as OpenMP takes, all cores unless its environment says otherwise
     Verbosity verbosity = Verbosity::normal;
 };
 

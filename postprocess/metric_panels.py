@@ -17,6 +17,8 @@ RUN_PANELS = [
     Panel("Grains", "number", "linear", {"inserted": "inserted", "spheres": "inside", "left": "left"}),
     Panel("Contacts", "number", "linear", {"contacts": "contacts"}),
     Panel("Residual", "relative", "log", {"residual": "residual"}),
+    Panel("Error of the solver, at looks", "share of mean force, of what contacts change", "log",
+          {"force_error": "contact forces", "velocity_error_of_contacts": "velocities"}),
     Panel("Sweeps of a step", "number", "linear", {"sweeps": "sweeps"}),
     Panel("Overlap", "share of a diameter", "log", {"worst_overlap_d": "worst", "mean_overlap_d": "mean"}),
     Panel("Energy of motion and of contacts", "J", "log", {"kinetic_energy_J": "kinetic", "contact_energy_J": "contacts"}),

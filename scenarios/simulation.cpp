@@ -41,6 +41,23 @@ void Simulation::persist_without_sensors(Archive& archive)
     if (archive.reading()) network.contacts.clear(); // they are of another state
 }
 
+Simulation copy_without_sensors(const Simulation& simulation)
+{
+    Simulation copy;
+    copy.model = simulation.model;
+    copy.state = simulation.state;
+    copy.network.list = simulation.network.list; // of the network, what a checkpoint keeps
+    copy.network.carried = simulation.network.carried;
+    copy.pours = simulation.pours;
+    copy.outflow = simulation.outflow;
+    copy.incident_policy = simulation.incident_policy;
+    copy.escaped = simulation.escaped;
+    copy.interventions = simulation.interventions;
+    copy.output = simulation.output;
+    copy.duration = simulation.duration;
+    return copy;
+}
+
 bool IncidentPolicy::stops(const StepReport& report) const
 {
     return std::ranges::any_of(report.bodies.incidents, [&](const Incident& incident) {

@@ -50,6 +50,9 @@ struct Simulation {
     void persist_without_sensors(Archive& archive);
 };
 
+/// The same simulation once more, without sensors: it goes on as the first one, bit for bit, and leaves it alone.
+Simulation copy_without_sensors(const Simulation& simulation);
+
 /// Lets poured spheres in, takes away (every tenth step) the spheres that have been in an outlet, and advances by one
 /// step. Network and spheres belong together until the next call.
 StepReport advance(Simulation& simulation, const PhaseObserver& observer = {});

@@ -20,10 +20,13 @@ constexpr std::size_t incidents_told = 5;
 /// often that it costs more than so small a part of the time.
 constexpr double keep_interval = 1.0, most_pains = 100.0;
 
-std::vector<std::string> metrics_columns(const Simulation& simulation)
+std::vector<std::string> metrics_columns(const Simulation& simulation, const std::vector<std::size_t>& watched_walls)
 {
     std::vector<std::string> columns = {"time_s", "spheres", "inserted", "left", "contacts", "sweeps", "residual",
-        "worst_overlap_d", "mean_overlap_d", "kinetic_energy_J", "potential_energy_J", "contact_energy_J"};
+        "worst_overlap_d", "mean_overlap_d", "kinetic_energy_J", "potential_energy_J", "contact_energy_J",
+        "velocity_error_m_per_s", "velocity_error_of_flow", "velocity_error_of_contacts", "force_error"};
+    for (const std::size_t w : watched_walls)
+        columns.push_back(column_name(fmt::format("{}_force_error", simulation.model.walls[w].name), "N"));
     for (const auto& sensor : simulation.sensors)
         for (const Measurement& m : sensor->latest())
             columns.push_back(column_name(fmt::format("{}_{}", sensor->name, m.name), m.unit));
@@ -55,7 +58,8 @@ RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbo
       wall_interval_(opened.scene.checkpoint.wall_interval), verbosity_(verbosity),
       metrics_schedule_(opened.scene.time.metrics_interval), particle_schedule_(opened.scene.time.frame_interval),
       contact_schedule_(opened.scene.output.contact_interval), checkpoint_schedule_(opened.scene.checkpoint.interval),
-      frames_(folder), progress_(verbosity, opened.simulation)
+      watched_walls_(watched_walls(opened.scene, opened.simulation.model)), frames_(folder),
+      progress_(verbosity, opened.simulation)
 {
     if (checkpoint)
         go_on(*checkpoint);
@@ -66,7 +70,7 @@ RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbo
 void RunLoop::begin()
 {
     note_checkpoint(folder_, std::nullopt);
-    metrics_.emplace(folder_ / "metrics.csv", metrics_columns(simulation_));
+    metrics_.emplace(folder_ / "metrics.csv", metrics_columns(simulation_, watched_walls_));
     write_walls();
     particle_schedule_.due(simulation_.state.time);
     write_particles();
@@ -82,7 +86,7 @@ void RunLoop::go_on(Archive& checkpoint)
     if (has_reached(simulation_, simulation_.duration))
         throw InputError(fmt::format("{}: the run is at t = {:.6g} s already, and cannot end at {:.6g} s",
             folder_.string(), time, simulation_.duration));
-    metrics_.emplace(folder_ / "metrics.csv", metrics_columns(simulation_), metrics_size);
+    metrics_.emplace(folder_ / "metrics.csv", metrics_columns(simulation_, watched_walls_), metrics_size);
     progress_ = Progress(verbosity_, simulation_);
     frames_.cut_back();
     lost_ = simulation_.escaped.size();
@@ -107,7 +111,11 @@ void RunLoop::run_until(double time, const std::function<bool()>& go_on)
         if (go_on && !go_on()) return false;
         signal_ = stop_signal();
         before_step(signal_ != 0 || has_reached(simulation_, simulation_.duration, 1));
-        return signal_ == 0;
+        if (signal_ != 0) return false;
+        clock_.begin(RunPhase::looks);
+        statistics_.looks().before_step(simulation_);
+        clock_.begin(RunPhase::pour_and_outlet);
+        return true;
     };
     hooks.after_step = [this](const StepReport& report) { after_step(report); };
     hooks.on_phase = [this](Phase phase) { clock_.begin(phase); };
@@ -144,11 +152,11 @@ void RunLoop::before_step(bool is_last)
     if (is_due || clock_.wall() - recent_.taken >= std::max(keep_interval, most_pains * recent_.pains))
         take_checkpoint();
     if (is_due) write_checkpoint();
-    clock_.begin(RunPhase::pour_and_outlet);
 }
 
 void RunLoop::after_step(const StepReport& report)
 {
+    look_at_error(report);
     clock_.begin(RunPhase::output);
     statistics_.add(report, simulation_);
     if (!simulation_.incident_policy.stops(report)) {
@@ -157,6 +165,12 @@ void RunLoop::after_step(const StepReport& report)
         tell_incidents(report);
     }
     progress_.update(simulation_, report, clock_.wall());
+}
+
+void RunLoop::look_at_error(const StepReport& report)
+{
+    clock_.begin(RunPhase::looks);
+    statistics_.looks().after_step(simulation_, report);
 }
 
 void RunLoop::tell_incidents(const StepReport& report)
@@ -265,6 +279,11 @@ void RunLoop::write_metrics(const StepReport& report)
         static_cast<double>(report.solve.sweeps), report.solve.residual, report.contacts.worst_overlap / d,
         report.contacts.mean_overlap() / d, report.bodies.kinetic_energy, report.bodies.potential_energy,
         report.contacts.stored_energy};
+    const ErrorLook& look = statistics_.looks().latest();
+    for (const double error : {look.velocity_error, look.of_flow(), look.of_contacts(), look.force_error})
+        row.push_back(error);
+    for (const std::size_t w : watched_walls_)
+        row.push_back(look.wall_errors.empty() ? ErrorLook::unknown : look.wall_errors[w]);
     for (const auto& sensor : simulation_.sensors)
         for (const Measurement& m : sensor->latest()) row.push_back(m.value);
     metrics_->add_row(row);

@@ -60,6 +60,9 @@ public:
     /// @throws OutputError
     RunEnd end();
 
+    /// From now on looks at the error of the solver may take this share of what the steps cost.
+    void set_look_share(double share) { statistics_.looks().set_share(share); }
+
     const StepReport& last() const { return last_; } ///< report of the last step; where none was made, an empty one
 
     const RunStatistics& statistics() const { return statistics_; }
@@ -74,6 +77,7 @@ private:
     void after_step(const StepReport& report);
     void write_what_is_due(const StepReport& report);
     void write_the_rest(const StepReport& report);
+    void look_at_error(const StepReport& report);
     void tell_incidents(const StepReport& report);
 
     bool checkpoint_is_due();
@@ -103,6 +107,7 @@ private:
     } recent_;
     double checkpoint_wall_ = 0.0;                                              ///< when the last was written [s]
     std::int64_t last_metrics_ = -1, last_particles_ = -1, last_contacts_ = -1; ///< steps after which they were written
+    std::vector<std::size_t> watched_walls_;                                    ///< by a sensor of their force
     std::vector<std::pair<bool, bool>> standing_;                               ///< walls in the last wall frame
     FrameWriter frames_;
     std::optional<MetricsFile> metrics_; ///< there as soon as the loop is made

@@ -86,14 +86,18 @@ void print_sensors(const RunSummary& summary)
             else if (!std::isfinite(m.spread))
                 say("  {:<28} {:.5g} {}, from too few samples for a spread\n", name, m.value, m.unit);
             else
-                say("  {:<28} {:.5g} ± {:.2g} {}\n", name, m.value, m.spread, m.unit);
+                say("  {:<28} {:.5g} ± {}{:.2g} {}\n", name, m.value, m.too_few ? "at least " : "", m.spread, m.unit);
         }
+    for (const SensorSummary& sensor : summary.sensors)
+        if (std::ranges::any_of(
+                sensor.results, [](const Measurement& m) { return m.too_few && std::isfinite(m.spread); }))
+            say("  {:<28} {}\n", sensor.name, too_few_samples);
 }
 
 /// What a sensor has to say at the end of a run, and if not all of it are numbers, why.
 SensorSummary summarise(const Sensor& sensor, const scene::SensorTable& table, double time)
 {
-    SensorSummary summary{sensor.name, sensor.results(), ""};
+    SensorSummary summary{sensor.name, sensor.results(), "", std::max(0.0, std::min(table.to, time) - table.from)};
     if (std::ranges::all_of(summary.results, [](const Measurement& m) { return std::isfinite(m.value); }))
         return summary;
     summary.silence = table.from > time
@@ -128,6 +132,30 @@ void print_momentum(const char* name, const MomentumSums& sums, const char* unit
         sums.from_walls, sums.left_over);
 }
 
+/// "0.12 %"; "unknown" where it is not a number.
+std::string percent(double share)
+{
+    return std::isfinite(share) ? fmt::format("{:.2g} %", 100.0 * share) : "unknown";
+}
+
+void print_solver_error(const SolverErrorSummary& e)
+{
+    if (e.looks == 0) {
+        say("  {:<28} unknown: the run was too short to look at it{}\n", "error of the solver",
+            e.put_off > 0 ? ", see --error-estimate" : "");
+        return;
+    }
+    say("  {:<28} {:.2g} m/s{}, {} of the flow's, {} of what contacts change\n", "error of velocities",
+        e.velocity_error, std::isfinite(e.in_fall_speeds) ? fmt::format(", {:.2g} √(g d)", e.in_fall_speeds) : "",
+        percent(e.of_flow), percent(e.of_contacts));
+    say("  {:<28} {} of their mean\n", "error of contact forces", percent(e.force_error));
+    for (const WallForceError& wall : e.walls)
+        say("  {:<28} {:.2g} N of {:.4g} N\n", fmt::format("error of force on {}", wall.wall), wall.error, wall.force);
+    say("  {:<28} {} steps solved again, {} of them to the end, all to a residual of {:.2g}{}\n", "  from looks at",
+        e.looks, e.to_the_end, e.residual,
+        e.put_off > 0 ? fmt::format("; {} times a look was put off, for it could not be paid", e.put_off) : "");
+}
+
 void print_error(const RunSummary& summary)
 {
     const ErrorSummary& e = summary.error;
@@ -136,6 +164,7 @@ void print_error(const RunSummary& summary)
         e.mean_residual, e.residual_95, e.worst_residual, e.tolerance);
     say("  {:<28} {} of {} ({:.2g} %)\n", "steps at the cap of sweeps", e.steps_at_cap, summary.steps,
         100.0 * static_cast<double>(e.steps_at_cap) / steps);
+    print_solver_error(summary.solver_error);
     say("  {:<28} mean {:.2g} % d, worst {:.2g} % d at {:.4g} s\n", "overlap", 100.0 * e.mean_overlap,
         100.0 * e.worst_overlap, e.worst_overlap_time);
     say("  {:<28} {}\n", "moves over 0.1 d in a step", e.long_moves);
@@ -195,6 +224,12 @@ RunSummary summarise(const OpenedScene& opened, const RunStatistics& statistics,
     for (std::size_t k = 0; k < simulation.sensors.size(); ++k)
         summary.sensors.push_back(summarise(*simulation.sensors[k], opened.scene.sensor[k], simulation.state.time));
     summary.error = statistics.error(simulation.model);
+    summary.solver_error = statistics.looks().summary(simulation.model);
+    const auto watched = watched_walls(opened.scene, simulation.model);
+    std::erase_if(summary.solver_error.walls, [&](const WallForceError& wall) {
+        return std::ranges::none_of(
+            watched, [&](std::size_t w) { return simulation.model.walls[w].name == wall.wall; });
+    });
     summary.timing = summarise_timing(statistics, clock);
     return summary;
 }

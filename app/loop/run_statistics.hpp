@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/loop/error_looks.hpp"
 #include "core/base/archive.hpp"
 #include "io/run/summary.hpp"
 #include "scenarios/simulation.hpp"
@@ -91,6 +92,10 @@ public:
     /// Takes in the report of the step that the simulation has just made.
     void add(const StepReport& report, const Simulation& simulation);
 
+    /// The looks at the error of the solver, which whoever makes the steps lets it take.
+    ErrorLooks& looks() { return looks_; }
+    const ErrorLooks& looks() const { return looks_; }
+
     ErrorSummary error(const Model& model) const;
 
     double contact_updates() const { return contact_updates_; } ///< contacts × sweeps
@@ -100,8 +105,8 @@ public:
 
     void persist(Archive& archive)
     {
-        archive(
-            sums_, residuals_, energy_, momentum_, overlap_sum_, overlap_count_, contact_updates_, inserted_, left_);
+        archive(sums_, residuals_, energy_, momentum_, overlap_sum_, overlap_count_, contact_updates_, inserted_, left_,
+            looks_);
     }
 
 private:
@@ -113,6 +118,7 @@ private:
     double contact_updates_ = 0.0;
     std::int64_t inserted_ = 0, left_ = 0; ///< up to the last step, also by escape
     bool same_spheres_ = false;
+    ErrorLooks looks_;
 };
 
 } // namespace talus

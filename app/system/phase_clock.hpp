@@ -12,10 +12,21 @@ namespace talus
 {
 
 /// What a run spends its time on: the phases of a step (in the order of Phase) and what happens around them.
-enum class RunPhase { search, assembly, warm_start, sweeps, positions, report, pour_and_outlet, sensors, output };
+enum class RunPhase {
+    search,
+    assembly,
+    warm_start,
+    sweeps,
+    positions,
+    report,
+    pour_and_outlet,
+    sensors,
+    looks,
+    output
+};
 
-inline constexpr std::array<const char*, 9> phase_names = {
-    "search", "assembly", "warm_start", "sweeps", "positions", "report", "pour_and_outlet", "sensors", "output"};
+inline constexpr std::array<const char*, 10> phase_names = {"search", "assembly", "warm_start", "sweeps", "positions",
+    "report", "pour_and_outlet", "sensors", "looks", "output"};
 
 /// Shares out wall and CPU time among the phases. It runs from its making on and is always in one phase, so that the
 /// phases add up to the whole.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/block_mean.hpp"
 
-#include "core/base/statistics.hpp"
-
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,44 +10,48 @@ namespace talus
 namespace
 {
 
-constexpr std::size_t most_blocks = 16; ///< even
+constexpr std::size_t least_blocks = 4; ///< from fewer, their scatter is not told
 
 } // namespace
 
 void BlockMean::add(double x, double weight)
 {
-    if (blocks_.empty() || in_last_ == block_length_) {
-        if (blocks_.size() == most_blocks) join_neighbors();
-        blocks_.emplace_back();
-        in_last_ = 0;
+    Block block;
+    if (std::isfinite(x) && weight > 0.0) block = {weight * x, weight};
+    all_ += block;
+    for (std::size_t k = 0;; ++k) {
+        if (k == levels_.size()) levels_.emplace_back();
+        Level& level = levels_[k];
+        if (block.weight > 0.0) level.means.add(block.sum / block.weight);
+        level.has_first = !level.has_first;
+        if (level.has_first) {
+            level.first = block;
+            return;
+        }
+        block += level.first;
     }
-    ++in_last_;
-    if (std::isfinite(x) && weight > 0.0) blocks_.back() += {weight * x, weight};
-}
-
-void BlockMean::join_neighbors()
-{
-    for (std::size_t k = 0; k < most_blocks / 2; ++k) {
-        blocks_[k] = blocks_[2 * k];
-        blocks_[k] += blocks_[2 * k + 1];
-    }
-    blocks_.resize(most_blocks / 2);
-    block_length_ *= 2;
 }
 
 double BlockMean::mean() const
 {
-    Block all;
-    for (const Block& block : blocks_) all += block;
-    return all.weight > 0.0 ? all.sum / all.weight : std::numeric_limits<double>::quiet_NaN();
+    return all_.weight > 0.0 ? all_.sum / all_.weight : std::numeric_limits<double>::quiet_NaN();
 }
 
-double BlockMean::standard_error() const
+ErrorOfMean BlockMean::error() const
 {
-    const std::size_t complete = blocks_.size() - (in_last_ == block_length_ || blocks_.empty() ? 0 : 1);
-    MeanAndError means;
-    for (std::size_t k = 0; k < complete; ++k) means.add(blocks_[k].sum / blocks_[k].weight);
-    return means.standard_error();
+    if (levels_.empty()) return {std::numeric_limits<double>::quiet_NaN(), 0.0, true};
+    const double n = static_cast<double>(levels_[0].means.count()), one = levels_[0].means.standard_error();
+    if (one == 0.0) return {0.0, n, false}; // it does not change
+    double largest = one, length = 1.0;
+    for (const Level& level : levels_) {
+        if (level.means.count() < least_blocks) break;
+        const double error = level.means.standard_error();
+        largest = std::max(largest, error);
+        const double worth = error * error / (one * one);
+        if (length * length * length > 2.0 * n * worth * worth) return {error, n / std::max(1.0, worth), false};
+        length *= 2.0;
+    }
+    return {largest, n * one * one / (largest * largest), true};
 }
 
 } // namespace talus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/archive.hpp"
+#include "core/base/statistics.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -9,12 +10,24 @@
 namespace talus
 {
 
-/// Mean of a quantity that is sampled in time, with the standard error of the means of successive blocks: samples that
-/// resemble the ones just before them add less than as many independent ones, and block means show that.
+/// What is known of the error of a mean.
+struct ErrorOfMean {
+    double error;       ///< standard error; not a number with fewer than two samples
+    double independent; ///< as many samples that do not resemble each other would be as good
+    bool too_few;       ///< not even the longest blocks are longer than what samples remember, or they are too few to
+                        ///< tell: the error is at least as large
+};
+
+/// Mean of a quantity that is sampled in time, with its standard error. Samples that resemble the ones just before them
+/// add less than as many independent ones. So their means over blocks of 1, 2, 4, … samples are taken: the error that
+/// the scatter of these means tells grows with the length of the blocks until they are longer than what samples
+/// remember, and is flat from there on (Flyvbjerg & Petersen 1989). It is taken from the shortest blocks, of B of n
+/// samples, for which
 ///
-/// There are at most 16 blocks of equally many samples; when they are full, neighbours are joined. So memory is
-/// constant, and the error is honest once a block (a sixteenth to an eighth of the time) is longer than the quantity
-/// remembers.
+///   B³ > 2 n (e_B / e_1)⁴,    e_B the error by blocks of B                     (Lee, Needs, Towler & Ríos 2011)
+///
+/// where what blocks still share is as large as the uncertainty of the scatter of so few: (e_B / e_1)² samples are
+/// worth an independent one. Memory is logarithmic in the number of samples.
 class BlockMean
 {
 public:
@@ -24,10 +37,9 @@ public:
     /// Σ w x / Σ w; not a number without samples.
     double mean() const;
 
-    /// Of the complete blocks; not a number with fewer than two.
-    double standard_error() const;
+    ErrorOfMean error() const;
 
-    void persist(Archive& archive) { archive(blocks_, block_length_, in_last_); }
+    void persist(Archive& archive) { archive(all_, levels_); }
 
 private:
     struct Block {
@@ -40,11 +52,16 @@ private:
             return *this;
         }
     };
-    std::vector<Block> blocks_;
-    std::int64_t block_length_ = 1; ///< samples in a block
-    std::int64_t in_last_ = 0;      ///< samples in the last block
+    /// Blocks of one length.
+    struct Level {
+        MeanAndError means;
+        bool has_first = false; ///< of two that make one of the next level
+        Block first;
 
-    void join_neighbors();
+        void persist(Archive& archive) { archive(means, has_first, first); }
+    };
+    Block all_;
+    std::vector<Level> levels_;
 };
 
 } // namespace talus

@@ -89,9 +89,9 @@ std::vector<Measurement> Profile::latest() const
 
 std::vector<Measurement> Profile::results() const
 {
-    const auto& [x, y, z] = of_all_.velocity;
-    return named({of_all_.packing.mean(), x.mean(), y.mean(), z.mean()},
-        {of_all_.packing.standard_error(), x.standard_error(), y.standard_error(), z.standard_error()});
+    std::vector<Measurement> all = {measurement("packing_fraction", of_all_.packing, "1")};
+    for (std::size_t k = 0; k < 3; ++k) all.push_back(measurement(velocity_name(k), of_all_.velocity[k], "m/s"));
+    return all;
 }
 
 std::optional<Table> Profile::table() const
@@ -106,10 +106,10 @@ std::optional<Table> Profile::table() const
     table.columns.push_back({"samples", "1"});
     for (std::size_t bin = 0; bin < bins_.count(); ++bin) {
         const Average& of = of_bin_[bin];
-        std::vector<double> row = {bins_.middle(bin), of.packing.mean(), of.packing.standard_error()};
+        std::vector<double> row = {bins_.middle(bin), of.packing.mean(), of.packing.error().error};
         for (const BlockMean& component : of.velocity) {
             row.push_back(component.mean());
-            row.push_back(component.standard_error());
+            row.push_back(component.error().error);
         }
         row.push_back(of.granular_temperature());
         row.push_back(static_cast<double>(of.samples));

@@ -138,7 +138,7 @@ std::vector<Measurement> RegionAverage::results() const
 {
     std::vector<Measurement> all;
     for (std::size_t k = 0; k < quantities; ++k)
-        all.push_back({quantity[k].name, means_[k].mean(), means_[k].standard_error(), quantity[k].unit});
+        all.push_back(measurement(quantity[k].name, means_[k], quantity[k].unit));
     return all;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/archive.hpp"
+#include "core/base/block_mean.hpp"
 #include "core/contacts/contact_network.hpp"
 #include "core/step/time_step.hpp"
 #include "core/world/model.hpp"
@@ -20,7 +21,12 @@ struct Measurement {
     double value = 0.0;
     double spread = 0.0;
     std::string unit;
+    std::optional<double> independent = std::nullopt; ///< samples that are worth so many independent ones, if known
+    bool too_few = false; ///< these are so few that the spread is a lower bound (block_mean.hpp)
 };
+
+/// A result that is the mean over time.
+Measurement measurement(const std::string& name, const BlockMean& mean, const std::string& unit);
 
 /// Results that are too many for names: a row for each place, say.
 struct Table {

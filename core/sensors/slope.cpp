@@ -48,7 +48,7 @@ std::vector<Measurement> Slope::latest() const
 
 std::vector<Measurement> Slope::results() const
 {
-    return {{"angle", mean_.mean(), mean_.standard_error(), "deg"}};
+    return {measurement("angle", mean_, "deg")};
 }
 
 } // namespace talus

@@ -58,8 +58,7 @@ std::vector<Measurement> WallForce::latest() const
 std::vector<Measurement> WallForce::results() const
 {
     std::vector<Measurement> all;
-    for (std::size_t k = 0; k < quantities; ++k)
-        all.push_back({force_names[k], means_[k].mean(), means_[k].standard_error(), unit_of(k)});
+    for (std::size_t k = 0; k < quantities; ++k) all.push_back(measurement(force_names[k], means_[k], unit_of(k)));
     return all;
 }
 

@@ -51,7 +51,7 @@ std::vector<Measurement> WallPosition::results() const
 {
     std::vector<Measurement> all;
     for (std::size_t k = 0; k < quantities; ++k)
-        all.push_back({position_names[k], means_[k].mean(), means_[k].standard_error(), position_units[k]});
+        all.push_back(measurement(position_names[k], means_[k], position_units[k]));
     return all;
 }
 

@@ -142,13 +142,23 @@ Json to_json(const std::vector<Explanation>& explanations)
     return json;
 }
 
+/// @param window over which it is averaged [s]
+Json to_json(const Measurement& m, double window)
+{
+    Json json = {{"value", m.value}, {"spread", m.spread}, {"unit", m.unit}};
+    if (!m.independent || !std::isfinite(m.value)) return json;
+    json["independent_samples"] = *m.independent;
+    json["correlation_time"] = window / *m.independent;
+    if (m.too_few) json["caution"] = too_few_samples;
+    return json;
+}
+
 Json to_json(const std::vector<SensorSummary>& sensors)
 {
     Json json = Json::object();
     for (const SensorSummary& sensor : sensors) {
         Json& quantities = json[sensor.name] = Json::object();
-        for (const Measurement& m : sensor.results)
-            quantities[m.name] = {{"value", m.value}, {"spread", m.spread}, {"unit", m.unit}};
+        for (const Measurement& m : sensor.results) quantities[m.name] = to_json(m, sensor.window);
         for (const Measurement& m : sensor.results)
             if (!std::isfinite(m.value)) quantities[m.name]["silence"] = sensor.silence;
     }
@@ -160,11 +170,24 @@ Json to_json(const MomentumSums& sums)
     return {{"from_gravity", sums.from_gravity}, {"from_walls", sums.from_walls}, {"left_over", sums.left_over}};
 }
 
+Json to_json(const SolverErrorSummary& solver)
+{
+    Json walls = Json::object();
+    for (const WallForceError& wall : solver.walls) walls[wall.wall] = {{"error", wall.error}, {"force", wall.force}};
+    return {{"looks", solver.looks}, {"made", solver.made}, {"put_off", solver.put_off},
+        {"to_the_end", solver.to_the_end}, {"residual", solver.residual},
+        {"velocity", {{"error", solver.velocity_error}, {"worst", solver.worst_velocity_error},
+                         {"worst_at", solver.worst_time}, {"in_sqrt_gd", solver.in_fall_speeds},
+                         {"of_flow", solver.of_flow}, {"of_contacts", solver.of_contacts}}},
+        {"contact_forces", solver.force_error}, {"wall_forces", walls}};
+}
+
 Json to_json(const ErrorSummary& error)
 {
     return {{"residual",
                 {{"tolerance", error.tolerance}, {"mean", error.mean_residual}, {"percentile_95", error.residual_95},
                     {"worst", error.worst_residual}, {"steps_at_cap", error.steps_at_cap}}},
+
         {"overlap_d",
             {{"mean", error.mean_overlap}, {"worst", error.worst_overlap}, {"worst_at", error.worst_overlap_time}}},
         {"long_moves", error.long_moves}, {"sub_steps", {{"steps", error.split_steps}, {"most", error.most_sub_steps}}},
@@ -209,13 +232,15 @@ std::string incidents_text(const std::vector<Incident>& incidents, const std::ve
 std::string summary_text(const RunSummary& summary)
 {
     const char* status = !summary.incidents.empty() ? "failed" : summary.interrupted ? "interrupted" : "done";
+    Json error = to_json(summary.error);
+    error["solver"] = to_json(summary.solver_error);
     return text_of({{"status", status}, {"touched", summary.touched},
         {"incidents", to_json(summary.incidents, summary.wall_names)}, {"version", summary.version},
         {"scene", summary.scene}, {"title", summary.title}, {"seed", summary.seed},
         {"explanations", to_json(summary.explanations)}, {"threads", summary.threads},
         {"time", {{"simulated", summary.simulated_time}, {"step", summary.time_step}, {"steps", summary.steps}}},
         {"ledger", to_json(summary.ledger)}, {"pours", to_json(summary.pours)}, {"sensors", to_json(summary.sensors)},
-        {"error", to_json(summary.error)}, {"timing", to_json(summary.timing)}});
+        {"error", error}, {"timing", to_json(summary.timing)}});
 }
 
 void write_summary(const std::filesystem::path& path, const RunSummary& summary)

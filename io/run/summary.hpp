@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +29,12 @@ struct SensorSummary {
     std::string name;
     std::vector<Measurement> results;
     std::string silence; ///< why results are not numbers; empty where all are
+    double window = 0.0; ///< over which they are averaged [s]
 };
+
+/// Said of a result whose samples are too few for its spread.
+inline constexpr const char* too_few_samples =
+    "its window holds too few independent samples, so its spread is a lower bound: average for longer";
 
 struct PourSummary {
     std::string name;
@@ -44,6 +50,33 @@ struct MomentumSums {
     double from_gravity = 0.0; ///< size of the sum of what gravity gave
     double from_walls = 0.0;   ///< the same of walls
     double left_over = 0.0;    ///< sum of the sizes of what the spheres gained or lost in single steps besides
+};
+
+/// The error of the force of the spheres on a wall, over the looks.
+struct WallForceError {
+    std::string wall;
+    double error = 0.0; ///< rms of the difference [N]
+    double force = 0.0; ///< rms of the force itself [N]
+};
+
+/// How far steps are from the same steps solved to the end, over the looks at it (error_looks.hpp): rms over spheres,
+/// contacts and looks. What no look tells is not a number.
+struct SolverErrorSummary {
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+    std::int64_t looks = 0;            ///< that these are from
+    std::int64_t made = 0;             ///< with those that were forgotten for the sake of even spacing
+    std::int64_t put_off = 0;          ///< times that a look was due and could not be paid for
+    std::int64_t to_the_end = 0;       ///< of `looks`: whose solution has reached 1e-12
+    double residual = unknown;         ///< of the solutions that were compared with
+    double velocity_error = unknown;   ///< [m/s]
+    double worst_velocity_error = 0.0; ///< of one look [m/s]
+    double worst_time = 0.0;           ///< of that look [s]
+    double in_fall_speeds = unknown;   ///< velocity error by √(g d); unknown without gravity
+    double of_flow = unknown;          ///< by the rms speed of the spheres
+    double of_contacts = unknown;      ///< by what contacts change in a step
+    double force_error = unknown;      ///< of contact forces, by their mean
+    std::vector<WallForceError> walls; ///< those that a sensor watches
 };
 
 /// How wrong the run may be. Overlaps are in mean diameters d.
@@ -109,6 +142,7 @@ struct RunSummary {
     std::vector<PourSummary> pours;
     std::vector<SensorSummary> sensors;
     ErrorSummary error;
+    SolverErrorSummary solver_error;
     TimingSummary timing;
 };
 

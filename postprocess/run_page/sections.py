@@ -75,8 +75,11 @@ def results(run):
         for name, one in quantities.items():
             if one.get("value") is not None:
                 unit = "" if one.get("unit") in (None, "1") else {"deg": "°", "kg/s": "kg/s"}.get(one["unit"], one["unit"])
+                told = with_spread(one["value"], one.get("spread"))
+                if one.get("caution"):  # the sentence stands with the errors of the run
+                    told = told.replace("±", "± at least")
                 cards.append(f"<div class='card'><span>{text(sensor)} · {text(name.replace('_', ' '))}</span>"
-                             f"<b>{text(with_spread(one['value'], one.get('spread')))}&thinsp;<small>{text(unit)}</small></b></div>")
+                             f"<b>{text(told)}&thinsp;<small>{text(unit)}</small></b></div>")
         if silent and len(silent) == len(quantities):
             cards.append(f"<div class='card quiet'><span>{text(sensor)}</span><p>{text(silent[0])}</p></div>")
     if not cards:
@@ -143,15 +146,35 @@ def error(run):
     rows = [("Residual", f"mean {number(residual['mean'], 2)}, 95 % of the steps below {number(residual['percentile_95'], 2)}, "
                          f"worst {number(residual['worst'], 2)}; asked for {number(residual['tolerance'], 2)}"),
             ("Steps at the cap of sweeps", f"{number(residual['steps_at_cap'])} of {number(steps)}"),
+            *solver_error(found.get("solver", {})),
             ("Overlap", f"mean {percent(overlap['mean'])} d, worst {percent(overlap['worst'])} d at {number(overlap.get('worst_at'))} s"),
             ("Energy that nothing put in", f"{number(energy['gained'], 2)} J, beside {number(energy['lost'])} J lost to friction and impacts"
                                            + (f" and {number(energy['put_in'])} J put in" if energy.get("put_in") else ""))]
     if momentum:
         rows.append(("Momentum left over", f"{number(momentum['left_over'], 2)} N s, beside {number(momentum['from_gravity'])} N s from gravity"))
+    for sensor, quantities in summary["sensors"].items():
+        told = [one["caution"] for one in quantities.values() if one.get("caution")]
+        if told:
+            rows.append((f"Spread of {sensor}", told[0]))
     rows.append(("Moves over 0.1 d in a step", number(found.get("long_moves"))))
     if sub_steps.get("steps"):
         rows.append(("Steps split", f"{number(sub_steps['steps'])}, into {number(sub_steps['most'])} at most"))
     return table(rows)
+
+
+def solver_error(found):
+    """What the run found when it solved some of its steps to the end."""
+    if not found.get("looks"):
+        return [("Error of the solver", "unknown: the run was too short to look at it")] if found else []
+    velocity = found["velocity"]
+    rows = [("Error of velocities", f"{number(velocity['error'], 2)} m/s: {percent(velocity['of_flow'])} of the flow's, "
+                                    f"{percent(velocity['of_contacts'])} of what contacts change in a step"),
+            ("Error of contact forces", f"{percent(found['contact_forces'])} of their mean")]
+    rows += [(f"Error of the force on {name}", f"{number(wall['error'], 2)} N, beside {number(wall['force'])} N")
+             for name, wall in found["wall_forces"].items()]
+    rows.append(("Found by", f"{number(found['looks'])} steps made once more, {number(found['to_the_end'])} of them solved to the end, "
+                             f"all to a residual of {number(found['residual'], 2)}"))
+    return rows
 
 
 def percent(share):

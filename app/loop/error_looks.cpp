@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/loop/error_looks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace talus
+{
+namespace
+{
+
+// A step solved to the end. Far fewer sweeps than the most are made in most looks, by what these may cost.
+constexpr double exact_tolerance = 1e-12;
+constexpr int most_sweeps = 20000;
+
+/// What a step costs besides its sweeps, in sweeps, about.
+constexpr double rest_of_step = 6.0;
+
+// A look says something only where it goes much further than the step itself.
+constexpr int least_sweeps = 100;
+constexpr int least_times_as_far = 10;
+
+/// By id: a step may put spheres into another order.
+using Velocities = std::unordered_map<std::int64_t, Vec3>;
+
+Velocities velocities(const State& state)
+{
+    Velocities all;
+    for (std::size_t i = 0; i < state.count(); ++i) all.emplace(state.id[i], state.motion[i].velocity);
+    return all;
+}
+
+/// What the velocities would be after the next step if nothing touched.
+Velocities free_velocities(const Simulation& simulation)
+{
+    const State& state = simulation.state;
+    const double h = simulation.model.time_step;
+    Velocities all;
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        Vec3 v = state.motion[i].velocity + h * simulation.model.gravity;
+        if (!state.own_force.empty()) v += h * state.motion[i].inverse_mass * state.own_force[i];
+        all.emplace(state.id[i], v);
+    }
+    return all;
+}
+
+double rms(double squares, std::size_t count)
+{
+    return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
+}
+
+/// Rms of the differences of velocities, and of what contacts have changed in them.
+void compare_velocities(ErrorLook& look, const State& found, const Velocities& exact, const Velocities& free)
+{
+    double errors = 0.0, speeds = 0.0, changes = 0.0;
+    for (std::size_t i = 0; i < found.count(); ++i) {
+        const Vec3& v = found.motion[i].velocity;
+        const Vec3& right = exact.at(found.id[i]);
+        errors += (v - right).squaredNorm();
+        speeds += v.squaredNorm();
+        const auto before = free.find(found.id[i]); // those that have just been poured touch nothing yet
+        if (before != free.end()) changes += (right - before->second).squaredNorm();
+    }
+    look.velocity_error = rms(errors, found.count());
+    look.flow_speed = rms(speeds, found.count());
+    look.change_by_contacts = rms(changes, found.count());
+}
+
+/// Sums over the contacts of a step that was solved twice.
+struct ForceSums {
+    double squares = 0.0, size = 0.0;
+    std::size_t count = 0;
+
+    /// @pre the same contacts
+    void add(const TileContacts& found, const TileContacts& exact)
+    {
+        for (const std::size_t k : exact.indices()) {
+            const Vec3 one = found.impulse(k), other = exact.impulse(k);
+            if (one.isZero(0.0) && other.isZero(0.0)) continue;
+            squares += (one - other).squaredNorm();
+            size += other.norm();
+            ++count;
+        }
+    }
+};
+
+double force_error(const ContactNetwork& found, const ContactNetwork& exact)
+{
+    ForceSums sums;
+    for (std::size_t t = 0; t < exact.contacts.spheres.size(); ++t)
+        sums.add(found.contacts.spheres[t], exact.contacts.spheres[t]);
+    for (std::size_t t = 0; t < exact.contacts.walls.size(); ++t)
+        sums.add(found.contacts.walls[t], exact.contacts.walls[t]);
+    sums.add(found.contacts.pistons, exact.contacts.pistons);
+    if (sums.size == 0.0) return ErrorLook::unknown;
+    return rms(sums.squares, sums.count) / (sums.size / static_cast<double>(sums.count));
+}
+
+/// √(Σ x² / n) over the looks in which x is known; not a number without any.
+template <class Part> double rms_over(const std::vector<ErrorLook>& looks, Part&& part)
+{
+    double squares = 0.0;
+    std::size_t count = 0;
+    for (const ErrorLook& look : looks)
+        if (const double x = part(look); std::isfinite(x)) {
+            squares += x * x;
+            ++count;
+        }
+    return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : ErrorLook::unknown;
+}
+
+} // namespace
+
+std::vector<std::size_t> watched_walls(const scene::Scene& scene, const Model& model)
+{
+    std::vector<std::size_t> walls;
+    for (std::size_t w = 0; w < model.walls.size(); ++w)
+        if (std::ranges::any_of(scene.sensor, [&](const scene::SensorTable& sensor) {
+                return sensor.kind == "wall_force" && sensor.wall == model.walls[w].name;
+            }))
+            walls.push_back(w);
+    return walls;
+}
+
+void ErrorLooks::before_step(const Simulation& simulation)
+{
+    copy_.reset();
+    const std::int64_t steps = simulation.state.steps;
+    if (contacts_ == 0 || steps % interval_ != 0) return;
+    const double sweeps = credit_ / static_cast<double>(contacts_) - 2.0 * rest_of_step;
+    if (sweeps < std::max(least_sweeps, least_times_as_far * sweeps_)) {
+        ++put_off_;
+        return;
+    }
+    copy_ = std::make_shared<Simulation>(copy_without_sensors(simulation));
+    copy_->model.solver.tolerance = exact_tolerance;
+    copy_->model.solver.max_sweeps = static_cast<int>(std::min<double>(sweeps, most_sweeps));
+}
+
+void ErrorLooks::after_step(const Simulation& simulation, const StepReport& report)
+{
+    contacts_ = static_cast<std::int64_t>(report.contacts.count);
+    sweeps_ = report.solve.sweeps;
+    const double updates = static_cast<double>(contacts_) * (sweeps_ + rest_of_step * report.sub_steps);
+    credit_ += share_ * updates;
+    if (!copy_) return;
+
+    const Velocities free = free_velocities(*copy_);
+    const StepReport exact = advance(*copy_);
+    credit_ -= static_cast<double>(exact.contacts.count) *
+               (exact.solve.sweeps + rest_of_step * (1.0 + exact.sub_steps)); // the copy counts as well
+    ErrorLook look;
+    look.time = simulation.state.time;
+    look.residual = exact.solve.residual;
+    look.to_the_end = exact.solve.converged;
+    compare_velocities(look, simulation.state, velocities(copy_->state), free);
+    if (report.sub_steps == 1 && exact.sub_steps == 1)
+        look.force_error = force_error(simulation.network, copy_->network);
+    const double h = simulation.model.time_step;
+    for (std::size_t w = 0; w < report.wall_loads.size(); ++w) {
+        const Vec3& right = exact.wall_loads[w].impulse;
+        look.wall_errors.push_back((report.wall_loads[w].impulse - right).norm() / h);
+        look.wall_forces.push_back(right.norm() / h);
+    }
+    copy_.reset();
+
+    ++made_;
+    latest_ = look;
+    looks_.push_back(std::move(look));
+    if (looks_.size() < most) return;
+    for (std::size_t k = 1; k < most / 2; ++k) looks_[k] = std::move(looks_[2 * k]);
+    looks_.resize(most / 2);
+    interval_ *= 2;
+}
+
+SolverErrorSummary ErrorLooks::summary(const Model& model) const
+{
+    SolverErrorSummary summary;
+    summary.looks = static_cast<std::int64_t>(looks_.size());
+    summary.made = made_;
+    summary.put_off = put_off_;
+    summary.to_the_end = std::ranges::count_if(looks_, [](const ErrorLook& look) { return look.to_the_end; });
+    summary.residual = rms_over(looks_, [](const ErrorLook& look) { return look.residual; });
+    summary.velocity_error = rms_over(looks_, [](const ErrorLook& look) { return look.velocity_error; });
+    for (const ErrorLook& look : looks_)
+        if (look.velocity_error >= summary.worst_velocity_error) {
+            summary.worst_velocity_error = look.velocity_error;
+            summary.worst_time = look.time;
+        }
+    const double unit = std::sqrt(model.gravity.norm() * model.mean_diameter);
+    const auto share_of = [&](double speed) {
+        return speed > 0.0 ? summary.velocity_error / speed : ErrorLook::unknown;
+    };
+    summary.in_fall_speeds = share_of(unit);
+    summary.of_flow = share_of(rms_over(looks_, [](const ErrorLook& look) { return look.flow_speed; }));
+    summary.of_contacts = share_of(rms_over(looks_, [](const ErrorLook& look) { return look.change_by_contacts; }));
+    summary.force_error = rms_over(looks_, [](const ErrorLook& look) { return look.force_error; });
+    if (!model.physics.wall_loads || looks_.empty()) return summary;
+    for (std::size_t w = 0; w < model.walls.size(); ++w) {
+        const auto part = [&](const std::vector<double> ErrorLook::*list) {
+            return rms_over(looks_, [&](const ErrorLook& look) { return (look.*list)[w]; });
+        };
+        summary.walls.push_back({model.walls[w].name, part(&ErrorLook::wall_errors), part(&ErrorLook::wall_forces)});
+    }
+    return summary;
+}
+
+} // namespace talus
