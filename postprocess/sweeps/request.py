@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a sweep file asks for."""
 import math
+import re
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -57,7 +58,10 @@ class Table:
                 self.refuse(f"unknown key '{key}'{where}; allowed are {', '.join(known)}")
 
     def refuse(self, sentence):
-        raise RunError(f"{self.path}: {sentence}.")
+        """Raises RunError with a sentence, after the line of what it names first, where only one line can be meant."""
+        named = re.search(r"'([\w.-]+)'", sentence)
+        lines = lines_of(self.path, named[1].rsplit(".", 1)[-1]) if named else []
+        raise RunError(f"{self.path}{f':{lines[0]}' if len(lines) == 1 else ''}: {sentence}.")
 
     def called(self, key):
         return f"{self.name}.{key}" if self.name else key
@@ -72,6 +76,12 @@ class Table:
         if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool) or not good(value):
             self.refuse(f"'{self.called(key)}' must be {allowed or kind.__name__}, not {value!r}")
         return value
+
+
+def lines_of(path, key):
+    """The numbers of the lines in which a key of a TOML file is set, or a table of that name begins."""
+    pattern = re.compile(rf"""\s*(\[+\s*)?([\w"'-]+\s*\.\s*)*["']?{re.escape(key)}["']?\s*[=\]]""")
+    return [number for number, line in enumerate(Path(path).read_text(encoding="utf-8").split("\n"), 1) if pattern.match(line)]
 
 
 def read_toml(path):

@@ -264,7 +264,7 @@ class Folder(StudyTest):
         self.write("full/thesis.tex", "years")
         for words, sentence in (
                 ("--settings late.toml", "talus study: the study must end after 5.2 s, when its settings have settled, not at 0.35 s\n"),
-                ("--settings odd.toml", "talus study: odd.toml: unknown key 'value' in [vary]; allowed are key, values.\n"),
+                ("--settings odd.toml", "talus study: odd.toml:3: unknown key 'value' in [vary]; allowed are key, values.\n"),
                 ("--settings none.toml", "talus study: none.toml: there is no such file.\n"),
                 ("--settings good.toml -o full", "talus study: full: the folder is not empty and holds no study\n"),
                 ("--settings good.toml -o mine", "talus study: mine: is a file, not a folder for a study\n"),
