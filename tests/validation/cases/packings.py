@@ -82,4 +82,5 @@ def draw(figure, runs):
         axes.plot([1e-3] * len(SEEDS), found(runs, POURED, quantity), "C0.", label="poured")
         axes.set(xscale="log", xlabel="friction", ylabel=label)
         axes.set_xticks([1e-3, 1e-2, 1e-1, 1, 10], ["0", "0.01", "0.1", "1", "10"])
+    panels[0].set_ylim(bottom=0.5)
     panels[0].legend(loc="lower left", fontsize="small")
