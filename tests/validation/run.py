@@ -101,7 +101,6 @@ def main():
     if not names:
         parser.error(f"no case has {' or '.join(arguments.words)} in its name; there are {', '.join(CASES)}")
     cases = {name: importlib.import_module(f"cases.{name}") for name in names}
-    stored = json.loads(STORE.read_text()) if STORE.is_file() else {}
     os.environ["GOMP_SPINCOUNT"] = "2000"  # idle threads leave the processor to others
     talus = arguments.talus.resolve()
     failures = []
@@ -112,7 +111,8 @@ def main():
                 pending[run.name] = pool.submit(make, talus, run)
         for name, case in cases.items():
             try:
-                stored[name] = judge(name, case, {run.name: pending[run.name].result() for run in case.RUNS})
+                found = judge(name, case, {run.name: pending[run.name].result() for run in case.RUNS})
+                stored = dict(json.loads(STORE.read_text()) if STORE.is_file() else {}, **{name: found})
                 STORE.write_text(json.dumps(stored, indent=1, ensure_ascii=False) + "\n")
                 write_page(stored)
             except RunFailed as error:
