@@ -83,8 +83,8 @@ def judge(name, case, runs):
     for row in rows:
         print(f"{name}: {row['what']}: {row['mean']:.4g} ± {row['standard_error']:.2g}, "
               f"[{row['low']:.4g}, {row['high']:.4g}]: {'within' if row['within'] else 'OUTSIDE'}", flush=True)
-    commit = subprocess.run(["git", "log", "-1", "--format=%h", "--", "core", "scenarios", "io", "app"], cwd=ROOT,
-                            capture_output=True, text=True).stdout.strip()
+    commit = subprocess.run(["git", "log", "-1", "--format=%h", "--", "core", "scenarios", "io", "app", ":!*.md"],
+                            cwd=ROOT, capture_output=True, text=True).stdout.strip()
     seconds = sum(run.summary()["timing"]["cpu"] for run in runs.values())
     spheres = max(run.summary()["ledger"]["inserted"] for run in runs.values())
     return {"rows": rows, "seconds": seconds, "runs": len(runs), "spheres": spheres, "commit": commit,
