@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the validation page is made of: a case has runs, rows that put what they found beside references, a figure."""
+import math
+import statistics
+from pathlib import Path
+from typing import NamedTuple
+
+SEEDS = (1, 2, 3)
+
+
+class Simulation(NamedTuple):
+    """A run of a scene."""
+    name: str  # of its folder; cases that give the same one share the run
+    scene: str  # a name of scenarios/ or of tests/validation/scenes/
+    settings: dict[str, object] = {}  # as of --set
+    seed: int = 1
+
+
+class Row(NamedTuple):
+    """A quantity with what others have for it; within its tolerance where the mean over the seeds is in [low, high]."""
+    what: str
+    reference: str  # with its source
+    tolerance: str  # [low, high], as the page says it
+    low: float
+    high: float
+    values: tuple[float, ...]  # one for each seed
+
+    @property
+    def mean(self):
+        return statistics.fmean(self.values)
+
+    @property
+    def standard_error(self):
+        return statistics.stdev(self.values) / math.sqrt(len(self.values)) if len(self.values) > 1 else math.nan
+
+    @property
+    def within(self):
+        return self.low <= self.mean <= self.high
+
+
+def scene_file(scene):
+    """The path of a scene of tests/validation/scenes/, or the name of a supplied one."""
+    path = Path(__file__).parent / "scenes" / f"{scene}.toml"
+    return str(path) if path.is_file() else scene
+
+
+def over_seeds(name, scene, settings=None, seeds=SEEDS):
+    """The same scene once with each seed, named NAME_SEED."""
+    return [Simulation(f"{name}_{seed}", scene, settings or {}, seed) for seed in seeds]

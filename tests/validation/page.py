@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes tests/results/validation.md from what was found in the cases."""
+import importlib
+import math
+from pathlib import Path
+
+PAGE = Path(__file__).resolve().parents[1] / "results/validation.md"
+
+# What the page is to hold, in its order, with the cases that are not there yet.
+ALL = ("Beverloo's law", "fill height, sizes and friction in Beverloo's silo", "conical hopper", "clogging",
+       "Janssen's silo", "angle of repose", "column collapse", "rotating drum",
+       "rough incline and plane shear", "packings", "force distribution", "granular gas", "impact crater",
+       "Chung & Ooi's tests", "segregation", "the round robin of Dosta et al. 2024",
+       "the same hopper, pile and drum in LIGGGHTS and LAMMPS")
+
+HEAD = """# Beside theory and experiment
+
+Bulk behaviour that others have measured, computed or derived, and what Talus has for it. `tests/run validation`
+makes the runs and writes this page; the docstring of each case, in `tests/validation/cases/`, says more of its law,
+parameters and sources, and why its tolerance is what it is. Values are the mean over {seeds} seeds ± its standard
+error, and are within their tolerance where the mean is; tolerances were written down before the runs, but where the
+docstring says other. References "from memory" were not read again: their tolerances are wide for that. Seconds are
+those of the processor, of all runs of a case; cases may share runs.
+
+{verdict}
+
+Not yet here: {missing}.
+"""
+
+
+def number(value):
+    return f"{value:.4g}".replace("-", "−")
+
+
+def with_error(value, error):
+    """The value as far as its error tells, which has two digits."""
+    if not error > 0:
+        return number(value)
+    digits = max(0, 1 - math.floor(math.log10(error)))
+    return f"{value:.{digits}f} ± {error:.{digits}f}".replace("-", "−")
+
+
+def verdict_of(cases):
+    rows = [row for case in cases.values() for row in case["rows"]]
+    outside = [row for row in rows if not row["within"]]
+    if not outside:
+        return f"All {len(rows)} quantities are within their tolerance."
+    return (f"Of {len(rows)} quantities {len(rows) - len(outside)} are within their tolerance; "
+            f"{len(outside)} are **outside**.")
+
+
+def section(name, case, module):
+    title = f"{module.TITLE[0].upper()}{module.TITLE[1:]}"
+    lines = [f"## {title}", "", "| quantity | reference (source) | tolerance | Talus | |",
+             "| --- | --- | --- | --- | --- |"]
+    for row in case["rows"]:
+        lines.append(f"| {row['what']} | {row['reference']} | {row['tolerance']} "
+                     f"| {with_error(row['mean'], row['standard_error'])} "
+                     f"| {'within' if row['within'] else '**outside**'} |")
+    lines += ["", f"![{title}](validation/{name}.png)", ""]
+    if module.FINDINGS:
+        lines += [module.FINDINGS, ""]
+    lines += [f"{case['runs']} runs, of up to {case['spheres']} spheres: {case['seconds']:.0f} seconds. "
+              f"Measured {case['date']} at {case['commit']}.", ""]
+    return "\n".join(lines)
+
+
+def write_page(cases):
+    """From rows, seconds and the like of each case by the name of its file, as run.py keeps them."""
+    modules = {name: importlib.import_module(f"cases.{name}") for name in cases}
+    in_order = sorted(cases, key=lambda name: ALL.index(modules[name].TITLE))
+    there = {module.TITLE for module in modules.values()}
+    seeds = min(len(row["values"]) for case in cases.values() for row in case["rows"])
+    head = HEAD.format(seeds={3: "three"}.get(seeds, seeds), verdict=verdict_of(cases),
+                       missing="; ".join(title for title in ALL if title not in there))
+    sections = (section(name, cases[name], modules[name]) for name in in_order)
+    PAGE.write_text("\n".join([head, *sections]), encoding="utf-8")

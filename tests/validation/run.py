@@ -1,0 +1,125 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs the cases of bulk physics and writes tests/results/validation.md, with a figure for each.
+
+    tests/validation/run.py                 all cases
+    tests/validation/run.py gas packings    those with one of these words in the name of their file
+
+A case is a file of cases/. Runs go to build/validation, two at a time on one thread each; cases may share them. A run
+that is there, of the same scene with the same program, is not made again, so that what was broken off goes on where it
+was. Cases that are not asked for keep what tests/results/validation.json has of them.
+
+Exit codes: 0 done, whatever the verdicts; 1 a run failed; 2 the call is wrong.
+"""
+import argparse
+import concurrent.futures
+import datetime
+import hashlib
+import importlib
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(Path(__file__).parent), str(ROOT / "postprocess")]
+from case import scene_file  # noqa: E402  found by the line above
+from page import write_page  # noqa: E402
+from read_run import Run  # noqa: E402
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402  after the choice of a backend without a screen
+
+CASES = ("granular_gas", "packings", "force_distribution", "janssen", "beverloo", "discharge")
+STORE = ROOT / "tests/results/validation.json"
+
+
+class RunFailed(Exception):
+    """A run that did not come to its end; the text is one sentence."""
+
+
+def checksum_of(talus, run):
+    """Of the program and of all that a run is made from."""
+    digest = hashlib.sha256(talus.read_bytes())
+    path = Path(scene_file(run.scene))
+    digest.update((path if path.suffix else ROOT / f"scenarios/{run.scene}.toml").read_bytes())
+    digest.update(repr(run[1:]).encode())
+    return digest.hexdigest()
+
+
+def make(talus, run):
+    """Makes a run, if it is not there, and reads it.
+
+    Raises RunFailed.
+    """
+    folder = ROOT / "build/validation" / run.name
+    mark, checksum = folder.with_name(f"{run.name}.made_of"), checksum_of(talus, run)
+    if not (mark.is_file() and mark.read_text() == checksum):
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        settings = [word for key, value in run.settings.items() for word in ("--set", f"{key}={value}")]
+        command = [talus, "run", scene_file(run.scene), "--seed", run.seed, *settings, "--threads", 1, "--force",
+                   "--quiet", "-o", folder]
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+        if done.returncode:
+            raise RunFailed(f"{' '.join(map(str, command))} ended with {done.returncode}: {done.stderr[-500:]}")
+        mark.write_text(checksum)
+        print(f"{run.name} made", flush=True)
+    return Run(folder)
+
+
+def judge(name, case, runs):
+    """The rows of a case and what its runs took, as they are kept; its figure is drawn beside the page."""
+    figure = pyplot.figure(figsize=(6.4, 4.0), layout="constrained")
+    case.draw(figure, runs)
+    path = STORE.parent / "validation" / f"{name}.png"
+    path.parent.mkdir(exist_ok=True)
+    figure.savefig(path, dpi=100)
+    pyplot.close(figure)
+    rows = [dict(row._asdict(), mean=row.mean, standard_error=row.standard_error, within=row.within)
+            for row in case.judge(runs)]
+    for row in rows:
+        print(f"{name}: {row['what']}: {row['mean']:.4g} ± {row['standard_error']:.2g}, "
+              f"[{row['low']:.4g}, {row['high']:.4g}]: {'within' if row['within'] else 'OUTSIDE'}", flush=True)
+    commit = subprocess.run(["git", "log", "-1", "--format=%h", "--", "core", "scenarios", "io", "app", ":!*.md"],
+                            cwd=ROOT, capture_output=True, text=True).stdout.strip()
+    seconds = sum(run.summary()["timing"]["cpu"] for run in runs.values())
+    spheres = max(run.summary()["ledger"]["inserted"] for run in runs.values())
+    return {"rows": rows, "seconds": seconds, "runs": len(runs), "spheres": spheres, "commit": commit,
+            "date": datetime.date.today().isoformat()}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("words", nargs="*")
+    parser.add_argument("--talus", type=Path, default=ROOT / "build/talus")
+    parser.add_argument("--jobs", type=int, default=2)
+    arguments = parser.parse_args()
+    names = [name for name in CASES if not arguments.words or any(word in name for word in arguments.words)]
+    if not names:
+        parser.error(f"no case has {' or '.join(arguments.words)} in its name; there are {', '.join(CASES)}")
+    cases = {name: importlib.import_module(f"cases.{name}") for name in names}
+    os.environ["GOMP_SPINCOUNT"] = "2000"  # idle threads leave the processor to others
+    talus = arguments.talus.resolve()
+    failures = []
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        pending = {}
+        for run in (run for case in cases.values() for run in case.RUNS):
+            if run.name not in pending:
+                pending[run.name] = pool.submit(make, talus, run)
+        for name, case in cases.items():
+            try:
+                found = judge(name, case, {run.name: pending[run.name].result() for run in case.RUNS})
+                stored = dict(json.loads(STORE.read_text()) if STORE.is_file() else {}, **{name: found})
+                STORE.write_text(json.dumps(stored, indent=1, ensure_ascii=False) + "\n")
+                write_page(stored)
+            except RunFailed as error:
+                failures.append(str(error))
+                print(error, file=sys.stderr)
+    sys.exit(bool(failures))
+
+
+if __name__ == "__main__":
+    main()
