@@ -15,7 +15,8 @@ from calibration.page import calibration_page
 from calibration.target import read_target
 from read_run import RunError
 from sweep import explained, parse_arguments, tell_ways
-from sweeps.folder import make_folder, write_whole
+from run_page.writing import write_whole
+from sweeps.folder import make_folder
 from sweeps.gathering import gather
 from sweeps.pool import run_all
 from sweeps.results import read_cases

@@ -89,11 +89,11 @@ class Worker(Process):
 
 def work(job):
     """What a worker does."""
-    from studies.folder import without_nan
+    from run_page.writing import strict
     from studies.measuring import make_start, run_setting
     frame, seed = job["frame"], job["seed"]
     found = run_setting(frame, job["setting"], job["overrides"], seed) if "setting" in job else make_start(frame, seed)
-    print(json.dumps(without_nan(found)))
+    print(json.dumps(strict(found)))
 
 
 def automatic_start(scene):
@@ -200,7 +200,7 @@ def run_study(talus, study, arguments):
     from studies.folder import Rows, read_row, row_text
     from studies.page import study_page
     from studies.result import compare, study_csv
-    from sweeps.folder import write_whole
+    from run_page.writing import write_whole
     rows, quiet = Rows(study.folder), arguments.quiet
     jobs, at_once = study.missing(rows), arguments.threads or os.cpu_count()
     progress = Progress(jobs, at_once, study.frame["end"] - study.frame["start"], quiet)

@@ -14,6 +14,15 @@ namespace
 constexpr double exact_tolerance = 1e-12;
 constexpr int most_sweeps = 20000;
 
+/// A copy whose next step is solved to the end, or as far as so many sweeps go.
+Simulation exact_copy(const Simulation& simulation, int sweeps = most_sweeps)
+{
+    Simulation copy = copy_without_sensors(simulation);
+    copy.model.solver.tolerance = exact_tolerance;
+    copy.model.solver.max_sweeps = sweeps;
+    return copy;
+}
+
 /// What a step costs besides its sweeps, in sweeps, about.
 constexpr double rest_of_step = 6.0;
 
@@ -112,6 +121,18 @@ template <class Part> double rms_over(const std::vector<ErrorLook>& looks, Part&
 
 } // namespace
 
+double velocity_error_of_next_step(const Simulation& simulation)
+{
+    Simulation usual = copy_without_sensors(simulation), exact = exact_copy(simulation);
+    advance(usual);
+    advance(exact);
+    const Velocities found = velocities(usual.state);
+    double squares = 0.0;
+    for (const auto& [id, right] : velocities(exact.state))
+        if (const auto one = found.find(id); one != found.end()) squares += (one->second - right).squaredNorm();
+    return rms(squares, found.size());
+}
+
 std::vector<std::size_t> watched_walls(const scene::Scene& scene, const Model& model)
 {
     std::vector<std::size_t> walls;
@@ -133,9 +154,8 @@ void ErrorLooks::before_step(const Simulation& simulation)
         ++put_off_;
         return;
     }
-    copy_ = std::make_shared<Simulation>(copy_without_sensors(simulation));
-    copy_->model.solver.tolerance = exact_tolerance;
-    copy_->model.solver.max_sweeps = static_cast<int>(std::min<double>(sweeps, most_sweeps));
+    copy_ =
+        std::make_shared<Simulation>(exact_copy(simulation, static_cast<int>(std::min<double>(sweeps, most_sweeps))));
 }
 
 void ErrorLooks::after_step(const Simulation& simulation, const StepReport& report)

@@ -39,6 +39,10 @@ struct ErrorLook {
     }
 };
 
+/// How far the velocities are, after the next step, from those that the same step has when it is solved to the end:
+/// root of the mean square over the spheres [m/s]. Both steps are made on copies.
+double velocity_error_of_next_step(const Simulation& simulation);
+
 /// The walls whose force a sensor of the scene watches, by index.
 std::vector<std::size_t> watched_walls(const scene::Scene& scene, const Model& model);
 

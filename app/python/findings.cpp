@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/python/findings.hpp"
 
-#include "core/base/archive.hpp"
 #include "core/contacts/loads.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace talus
 {
@@ -14,10 +12,6 @@ namespace
 {
 
 constexpr std::size_t cut_count = 10;
-
-// A step solved to the end: as far as it goes.
-constexpr double exact_tolerance = 1e-12;
-constexpr int exact_sweeps = 20000;
 
 double mass_of(const State& state)
 {
@@ -40,27 +34,6 @@ double acceleration_of(const Simulation& start)
     if (g > 0.0) return g;
     const double speed = rms_speed(start.state);
     return speed > 0.0 ? speed * speed / start.model.mean_diameter : 1.0;
-}
-
-/// By the spheres' ids: a step may put spheres into another order.
-std::unordered_map<std::int64_t, Vec3> velocities(const State& state)
-{
-    std::unordered_map<std::int64_t, Vec3> all;
-    for (std::size_t i = 0; i < state.count(); ++i) all[state.id[i]] = state.motion[i].velocity;
-    return all;
-}
-
-std::string state_of(Simulation& simulation)
-{
-    Archive archive;
-    simulation.persist_without_sensors(archive);
-    return archive.take_bytes();
-}
-
-void put_back(Simulation& simulation, const std::string& state)
-{
-    Archive archive(state);
-    simulation.persist_without_sensors(archive);
 }
 
 } // namespace
@@ -151,27 +124,6 @@ std::vector<double> Findings::profile() const
     std::vector<double> mean = force_sum_;
     for (double& force : mean) force /= static_cast<double>(looked_) * units_.mass * units_.acceleration;
     return mean;
-}
-
-double velocity_error_of_next_step(Simulation& simulation)
-{
-    const std::string before = state_of(simulation);
-    const SolverSettings usual = simulation.model.solver;
-    advance(simulation);
-    const auto velocity = velocities(simulation.state);
-    put_back(simulation, before);
-
-    simulation.model.solver.tolerance = exact_tolerance;
-    simulation.model.solver.max_sweeps = exact_sweeps;
-    advance(simulation);
-    double squares = 0.0;
-    for (const auto& [id, exact] : velocities(simulation.state))
-        if (const auto found = velocity.find(id); found != velocity.end())
-            squares += (found->second - exact).squaredNorm();
-    const auto count = static_cast<double>(std::max<std::size_t>(1, velocity.size()));
-    simulation.model.solver = usual;
-    put_back(simulation, before);
-    return std::sqrt(squares / count);
 }
 
 } // namespace talus

@@ -65,8 +65,4 @@ private:
     void look(const StepReport& report, Simulation& simulation);
 };
 
-/// How far the velocities are, after the next step, from those that the same step has when it is solved to the end:
-/// root of the mean square over the spheres [m/s]. The simulation is put back to where it was.
-double velocity_error_of_next_step(Simulation& simulation);
-
 } // namespace talus

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/loop/error_looks.hpp"
 #include "app/python/arrays.hpp"
 #include "app/python/findings.hpp"
 #include "app/python/session.hpp"
@@ -280,7 +281,7 @@ void bind_findings(py::module_& module)
         .def_property_readonly(
             "contact_updates", [](const Watch& w) { return w.findings.contact_updates(); }, "contacts x sweeps so far")
         .def(
-            "velocity_error", [](Watch& w) { return velocity_error_of_next_step(w.session->change()); },
+            "velocity_error", [](Watch& w) { return velocity_error_of_next_step(w.session->now()); },
             "How far the velocities are after the next step from those of the same step solved to the end: root of the "
             "mean square [m/s]. The simulation is left where it is.");
     module.def("_run_unobserved", &run_unobserved, arg("simulation"), arg("until"), arg("spent"), arg("longest"));

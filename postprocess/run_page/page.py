@@ -13,6 +13,7 @@ from run_page.playback import Playback
 from run_page.sections import STATUS, all_sections, text
 from run_page.still import still
 from run_page.walls import pack_walls
+from run_page.writing import strict
 
 VIEWER = Path(__file__).resolve().parent.parent / "viewer"
 
@@ -87,15 +88,6 @@ def heaps(scene):
 def as_json(data):
     """JSON that may stand in a script element: nothing in it ends that."""
     return json.dumps(strict(data), ensure_ascii=False, allow_nan=False).replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
-
-
-def strict(data):
-    """The same without what JSON has no word for: numbers that are not finite become null."""
-    if isinstance(data, dict):
-        return {key: strict(value) for key, value in data.items()}
-    if isinstance(data, (list, tuple)):
-        return [strict(value) for value in data]
-    return None if isinstance(data, float) and not numpy.isfinite(data) else data
 
 
 def viewer_code():

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes pages: whole or not at all, and not over what somebody else wrote."""
+"""Writes pages and data: whole or not at all, not over what somebody else wrote, and JSON without numbers that it has no
+word for."""
+import math
 import os
 
 from read_run import RunError
@@ -11,11 +13,20 @@ def refuse_foreign(path):
         raise RunError(f"{path} is there already and is no page of Talus; --force replaces it.")
 
 
-def write_whole(path, page):
-    """Writes a file that is there whole or not at all. Raises OSError where it cannot be written."""
+def strict(data):
+    """The same without what JSON has no word for: numbers that are not finite become null."""
+    if isinstance(data, dict):
+        return {key: strict(value) for key, value in data.items()}
+    if isinstance(data, (list, tuple)):
+        return [strict(value) for value in data]
+    return None if isinstance(data, float) and not math.isfinite(data) else data
+
+
+def write_whole(path, content):
+    """Writes text or bytes to a file that is there whole or not at all. Raises OSError where it cannot be written."""
     beside = path.with_name(path.name + ".tmp")
     try:
-        beside.write_text(page, encoding="utf-8")
+        beside.write_bytes(content if isinstance(content, bytes) else content.encode())
         os.replace(beside, path)
     except OSError:
         beside.unlink(missing_ok=True)

@@ -12,7 +12,7 @@ import shutil
 from pathlib import Path
 
 from read_run import RunError
-from sweeps.folder import write_whole
+from run_page.writing import strict, write_whole
 
 MARK, ROWS, LOCK = "study.resolved.toml", "rows.jsonl", "talus.lock"
 ROW_KEYS = ("setting", "seed", "status", "cpu_s_per_s", "contact_updates_per_s", "memory_B", "findings", "profile")
@@ -47,22 +47,13 @@ def remove_study(path):
             shutil.rmtree(one) if one.is_dir() and not one.is_symlink() else one.unlink()
 
 
-def without_nan(value):
-    """What is not a finite number as None, which JSON has."""
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, dict):
-        return {key: without_nan(one) for key, one in value.items()}
-    return [without_nan(one) for one in value] if isinstance(value, list) else value
-
-
 def with_nan(value):
     return math.nan if value is None else value
 
 
 def row_text(row):
     """A row as one line of JSON, without its end; what is not a number is null."""
-    return json.dumps(without_nan({key: row[key] for key in ROW_KEYS}), separators=(",", ":"), ensure_ascii=False)
+    return json.dumps(strict({key: row[key] for key in ROW_KEYS}), separators=(",", ":"), ensure_ascii=False)
 
 
 def read_row(line):

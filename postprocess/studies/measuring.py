@@ -6,8 +6,8 @@ import warnings
 from pathlib import Path
 
 import talus
+from run_page.writing import write_whole
 from studies.statistics import MeanAndError
-from sweeps.folder import write_whole
 
 LOOKS = 3  # how often the velocity error is taken: it is of one step, and differs from step to step
 

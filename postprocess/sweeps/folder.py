@@ -20,6 +20,7 @@ import tomllib
 from pathlib import Path
 
 from read_run import RunError, is_locked
+from run_page.writing import write_whole
 from sweeps.design import cases_of
 from sweeps.setting_text import setting_text
 
@@ -61,13 +62,6 @@ class SweepFolder:
         cases = list(self.cases().values())
         keys = [key for key in cases[0] if len({case[key] for case in cases}) > 1] if cases else []
         return sorted(keys, key=lambda key: key == "seed")
-
-
-def write_whole(path, content):
-    """A file that is there whole or not at all."""
-    beside = path.with_name(path.name + ".tmp")
-    beside.write_bytes(content if isinstance(content, bytes) else content.encode())
-    os.replace(beside, path)
 
 
 def make_folder(sweep, path, talus, force):

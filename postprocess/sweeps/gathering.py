@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables and page of a sweep, from what its cases have left so far."""
-from sweeps.folder import write_whole
+from run_page.writing import write_whole
 from sweeps.page import sweep_page
 from sweeps.results import read_cases, write_tables
 

@@ -8,7 +8,7 @@ import csv
 import io
 import json
 
-from sweeps.folder import write_whole
+from run_page.writing import write_whole
 
 RUN_COLUMNS = {  # name of a column: where it is in summary.json
     "simulated_time_s": ("time", "simulated"), "time_step_s": ("time", "step"), "steps": ("time", "steps"),
