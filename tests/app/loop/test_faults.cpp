@@ -39,8 +39,9 @@ std::string between(const std::string& commands)
     return killed() + commands + "; $TALUS resume out --quiet --threads 1";
 }
 
-/// The next checkpoint does not come to its end, so that a second signal meets the program after the first.
-const std::string hold_checkpoints = "mkfifo out/checkpoint.next.tmp; ";
+/// The next checkpoint does not come to its end, so that a second signal meets the program after the first. While one
+/// is being written its file is in the way.
+const std::string hold_checkpoints = "until mkfifo out/checkpoint.next.tmp 2> /dev/null; do :; done; ";
 
 Fault second_signal(const std::string& signal)
 {
