@@ -82,6 +82,7 @@ void RunLoop::go_on(Archive& checkpoint)
     std::uint64_t metrics_size = 0;
     persist(checkpoint, metrics_size);
     if (!checkpoint.at_end()) throw ArchiveError("the saved state is longer than what this scene needs");
+    recent_.bytes = checkpoint.take_bytes(); // room for the next one
     const double time = simulation_.state.time;
     if (has_reached(simulation_, simulation_.duration))
         throw InputError(fmt::format("{}: the run is at t = {:.6g} s already, and cannot end at {:.6g} s",

@@ -135,6 +135,21 @@ void add_contact_arrays(
     if (asked("wall")) add_integers(data, "wall", count, [&](std::size_t k) { return lines[k].wall; });
 }
 
+vtkNew<vtkPolyData> contacts_of(const Simulation& simulation)
+{
+    std::vector<ContactLine> lines = loaded_contacts(simulation);
+    drop_weaker_than(simulation.output.contact_threshold, lines);
+    vtkNew<vtkPolyData> geometry;
+    set_points(
+        *geometry, 2 * lines.size(), [&](std::size_t p) { return p % 2 == 0 ? lines[p / 2].from : lines[p / 2].to; });
+    vtkNew<vtkCellArray> cells;
+    for (vtkIdType first = 0; first < static_cast<vtkIdType>(2 * lines.size()); first += 2)
+        cells->InsertNextCell({first, first + 1});
+    geometry->SetLines(cells);
+    add_contact_arrays(*geometry->GetCellData(), simulation.output.contact_arrays, lines);
+    return geometry;
+}
+
 } // namespace
 
 FrameWriter::FrameWriter(std::filesystem::path folder) : folder_(std::move(folder))
@@ -156,17 +171,7 @@ void write_particles(const Simulation& simulation, const std::filesystem::path& 
 
 void FrameWriter::write_contacts(const Simulation& simulation)
 {
-    std::vector<ContactLine> lines = loaded_contacts(simulation);
-    drop_weaker_than(simulation.output.contact_threshold, lines);
-    vtkNew<vtkPolyData> geometry;
-    set_points(
-        *geometry, 2 * lines.size(), [&](std::size_t p) { return p % 2 == 0 ? lines[p / 2].from : lines[p / 2].to; });
-    vtkNew<vtkCellArray> cells;
-    for (vtkIdType first = 0; first < static_cast<vtkIdType>(2 * lines.size()); first += 2)
-        cells->InsertNextCell({first, first + 1});
-    geometry->SetLines(cells);
-    add_contact_arrays(*geometry->GetCellData(), simulation.output.contact_arrays, lines);
-    add_frame(contacts_, simulation.state.time, *geometry);
+    add_frame(contacts_, simulation.state.time, *contacts_of(simulation));
 }
 
 void FrameWriter::write_walls(const Model& model, const State& state)
