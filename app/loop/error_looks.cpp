@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/loop/error_looks.hpp"
 
+#include "app/loop/step_cost.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
@@ -22,9 +24,6 @@ Simulation exact_copy(const Simulation& simulation, int sweeps = most_sweeps)
     copy.model.solver.max_sweeps = sweeps;
     return copy;
 }
-
-/// What a step costs besides its sweeps, in sweeps, about.
-constexpr double rest_of_step = 6.0;
 
 // A look says something only where it goes much further than the step itself.
 constexpr int least_sweeps = 100;
@@ -162,14 +161,12 @@ void ErrorLooks::after_step(const Simulation& simulation, const StepReport& repo
 {
     contacts_ = static_cast<std::int64_t>(report.contacts.count);
     sweeps_ = report.solve.sweeps;
-    const double updates = static_cast<double>(contacts_) * (sweeps_ + rest_of_step * report.sub_steps);
-    credit_ += share_ * updates;
+    credit_ += share_ * cost_of(report);
     if (!copy_) return;
 
     const Velocities free = free_velocities(*copy_);
     const StepReport exact = advance(*copy_);
-    credit_ -= static_cast<double>(exact.contacts.count) *
-               (exact.solve.sweeps + rest_of_step * (1.0 + exact.sub_steps)); // the copy counts as well
+    credit_ -= cost_of(exact) + rest_of_step * static_cast<double>(exact.contacts.count); // the copy counts as well
     ErrorLook look;
     look.time = simulation.state.time;
     look.residual = exact.solve.residual;

@@ -54,10 +54,11 @@ RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbo
 }
 
 RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive* checkpoint)
-    : simulation_(opened.simulation), folder_(folder), origin_(origin_of(opened.name, opened.scene)),
-      wall_interval_(opened.scene.checkpoint.wall_interval), verbosity_(verbosity),
-      metrics_schedule_(opened.scene.time.metrics_interval), particle_schedule_(opened.scene.time.frame_interval),
-      contact_schedule_(opened.scene.output.contact_interval), checkpoint_schedule_(opened.scene.checkpoint.interval),
+    : scene_(opened.scene), simulation_(opened.simulation), folder_(folder),
+      origin_(origin_of(opened.name, opened.scene)), wall_interval_(opened.scene.checkpoint.wall_interval),
+      verbosity_(verbosity), metrics_schedule_(opened.scene.time.metrics_interval),
+      particle_schedule_(opened.scene.time.frame_interval), contact_schedule_(opened.scene.output.contact_interval),
+      checkpoint_schedule_(opened.scene.checkpoint.interval),
       watched_walls_(watched_walls(opened.scene, opened.simulation.model)), frames_(folder),
       progress_(verbosity, opened.simulation)
 {
@@ -99,6 +100,12 @@ void RunLoop::go_on(Archive& checkpoint)
     for (Schedule* schedule : {&metrics_schedule_, &contact_schedule_}) schedule->due(time);
 }
 
+void RunLoop::estimate_error()
+{
+    statistics_.looks().set_share(ErrorLooks::large_share);
+    statistics_.companions().set_share(Companions::usual_share);
+}
+
 RunEnd RunLoop::run()
 {
     run_until(simulation_.duration);
@@ -110,6 +117,8 @@ void RunLoop::run_until(double time, const std::function<bool()>& go_on)
     StepHooks hooks;
     hooks.before_step = [&] {
         if (go_on && !go_on()) return false;
+        clock_.begin(RunPhase::companions);
+        statistics_.companions().before_step(simulation_, scene_, [] { return stop_signal() == 0; });
         signal_ = stop_signal();
         before_step(signal_ != 0 || has_reached(simulation_, simulation_.duration, 1));
         if (signal_ != 0) return false;
@@ -172,6 +181,7 @@ void RunLoop::look_at_error(const StepReport& report)
 {
     clock_.begin(RunPhase::looks);
     statistics_.looks().after_step(simulation_, report);
+    statistics_.companions().after_step(report);
 }
 
 void RunLoop::tell_incidents(const StepReport& report)

@@ -60,8 +60,8 @@ public:
     /// @throws OutputError
     RunEnd end();
 
-    /// From now on looks at the error of the solver may take this share of what the steps cost.
-    void set_look_share(double share) { statistics_.looks().set_share(share); }
+    /// From now on the run has companions, and looks closer at the error of its solver.
+    void estimate_error();
 
     const StepReport& last() const { return last_; } ///< report of the last step; where none was made, an empty one
 
@@ -92,6 +92,7 @@ private:
     void write_contacts();
     void write_walls();
 
+    const scene::Scene& scene_;
     Simulation& simulation_;
     std::filesystem::path folder_;
     RunOrigin origin_;

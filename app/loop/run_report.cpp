@@ -74,24 +74,44 @@ std::vector<Explanation> explanations(const BuildReport& report)
     return list;
 }
 
+/// " ± 0.0012 (step)"; where nothing is seen in the noise " ± below 0.0012 (step)".
+std::string told(const ChangeOfResult& change, const char* by)
+{
+    if (!change.is_known()) return fmt::format(" ± ? ({})", by);
+    const bool is_bound = !change.is_seen() && change.error() > 0.0;
+    return fmt::format(" ± {}{:.2g} ({})", is_bound ? "below " : "", change.error(), by);
+}
+
+/// " ± 0.0021", and what companions have found.
+std::string told_errors(const SensorSummary& sensor, std::size_t k)
+{
+    const Measurement& m = sensor.results[k];
+    std::string text;
+    if (m.spread != 0.0 && std::isfinite(m.spread))
+        text = fmt::format(" ± {}{:.2g}", m.too_few ? "at least " : "", m.spread);
+    if (k < sensor.by_step.size()) text += told(sensor.by_step[k], "step") + told(sensor.by_solver[k], "solver");
+    return text;
+}
+
 void print_sensors(const RunSummary& summary)
 {
     for (const SensorSummary& sensor : summary.sensors)
-        for (const Measurement& m : sensor.results) {
+        for (std::size_t k = 0; k < sensor.results.size(); ++k) {
+            const Measurement& m = sensor.results[k];
             const std::string name = fmt::format("{} {}", sensor.name, m.name);
             if (!std::isfinite(m.value))
                 say("  {:<28} {}\n", name, sensor.silence);
-            else if (m.spread == 0.0)
-                say("  {:<28} {:.5g} {}\n", name, m.value, m.unit);
-            else if (!std::isfinite(m.spread))
-                say("  {:<28} {:.5g} {}, from too few samples for a spread\n", name, m.value, m.unit);
             else
-                say("  {:<28} {:.5g} ± {}{:.2g} {}\n", name, m.value, m.too_few ? "at least " : "", m.spread, m.unit);
+                say("  {:<28} {:.5g}{} {}{}\n", name, m.value, told_errors(sensor, k), m.unit,
+                    std::isfinite(m.spread) ? "" : ", from too few samples for a spread");
         }
-    for (const SensorSummary& sensor : summary.sensors)
+    for (const SensorSummary& sensor : summary.sensors) {
         if (std::ranges::any_of(
                 sensor.results, [](const Measurement& m) { return m.too_few && std::isfinite(m.spread); }))
             say("  {:<28} {}\n", sensor.name, too_few_samples);
+        if (std::ranges::any_of(sensor.by_step, [](const ChangeOfResult& change) { return !change.is_known(); }))
+            say("  {:<28} {}\n", sensor.name, too_few_pieces);
+    }
 }
 
 /// What a sensor has to say at the end of a run, and if not all of it are numbers, why.
@@ -104,6 +124,19 @@ SensorSummary summarise(const Sensor& sensor, const scene::SensorTable& table, d
                           ? fmt::format("it averages from {:.4g} s on, and the run ended at {:.4g} s", table.from, time)
                           : sensor.silence();
     return summary;
+}
+
+/// Adds what companions have found to the sensors, whose results are in their order.
+void add_changes(std::vector<SensorSummary>& sensors, const Companions& companions)
+{
+    if (!companions.any()) return;
+    std::size_t next = 0;
+    for (SensorSummary& sensor : sensors)
+        for (std::size_t k = 0; k < sensor.results.size(); ++k, ++next) {
+            const ChangesOfResult changes = companions.of_result(next);
+            sensor.by_step.push_back(changes.by_step());
+            sensor.by_solver.push_back(changes.by_solver());
+        }
 }
 
 /// "20 of 30 spheres", "0.2 of 0.3 kg".
@@ -165,6 +198,10 @@ void print_error(const RunSummary& summary)
     say("  {:<28} {} of {} ({:.2g} %)\n", "steps at the cap of sweeps", e.steps_at_cap, summary.steps,
         100.0 * static_cast<double>(e.steps_at_cap) / steps);
     print_solver_error(summary.solver_error);
+    if (summary.companion_pieces > 0)
+        say("  {:<28} {} pieces of {:.3g} s made again: as they were, with another seed, with half the step, with a "
+            "tenth of the tolerance\n",
+            "companions", summary.companion_pieces, summary.companion_length);
     say("  {:<28} mean {:.2g} % d, worst {:.2g} % d at {:.4g} s\n", "overlap", 100.0 * e.mean_overlap,
         100.0 * e.worst_overlap, e.worst_overlap_time);
     say("  {:<28} {}\n", "moves over 0.1 d in a step", e.long_moves);
@@ -223,6 +260,9 @@ RunSummary summarise(const OpenedScene& opened, const RunStatistics& statistics,
     summary.pours = summarise_pours(simulation);
     for (std::size_t k = 0; k < simulation.sensors.size(); ++k)
         summary.sensors.push_back(summarise(*simulation.sensors[k], opened.scene.sensor[k], simulation.state.time));
+    add_changes(summary.sensors, statistics.companions());
+    summary.companion_pieces = statistics.companions().pieces();
+    summary.companion_length = Companions::piece_length(simulation.model, opened.scene);
     summary.error = statistics.error(simulation.model);
     summary.solver_error = statistics.looks().summary(simulation.model);
     const auto watched = watched_walls(opened.scene, simulation.model);

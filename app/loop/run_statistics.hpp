@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/loop/companions.hpp"
 #include "app/loop/error_looks.hpp"
 #include "core/base/archive.hpp"
 #include "io/run/summary.hpp"
@@ -96,6 +97,10 @@ public:
     ErrorLooks& looks() { return looks_; }
     const ErrorLooks& looks() const { return looks_; }
 
+    /// The companions that tell what step and solver do to the results, in the same way.
+    Companions& companions() { return companions_; }
+    const Companions& companions() const { return companions_; }
+
     ErrorSummary error(const Model& model) const;
 
     double contact_updates() const { return contact_updates_; } ///< contacts × sweeps
@@ -106,7 +111,7 @@ public:
     void persist(Archive& archive)
     {
         archive(sums_, residuals_, energy_, momentum_, overlap_sum_, overlap_count_, contact_updates_, inserted_, left_,
-            looks_);
+            looks_, companions_);
     }
 
 private:
@@ -119,6 +124,7 @@ private:
     std::int64_t inserted_ = 0, left_ = 0; ///< up to the last step, also by escape
     bool same_spheres_ = false;
     ErrorLooks looks_;
+    Companions companions_;
 };
 
 } // namespace talus

@@ -22,11 +22,12 @@ enum class RunPhase {
     pour_and_outlet,
     sensors,
     looks,
+    companions,
     output
 };
 
-inline constexpr std::array<const char*, 10> phase_names = {"search", "assembly", "warm_start", "sweeps", "positions",
-    "report", "pour_and_outlet", "sensors", "looks", "output"};
+inline constexpr std::array<const char*, 11> phase_names = {"search", "assembly", "warm_start", "sweeps", "positions",
+    "report", "pour_and_outlet", "sensors", "looks", "companions", "output"};
 
 /// Shares out wall and CPU time among the phases. It runs from its making on and is always in one phase, so that the
 /// phases add up to the whole.

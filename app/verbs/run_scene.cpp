@@ -107,7 +107,7 @@ std::unique_ptr<ScriptBeside> watch_beside(const CommandLine& line, const fs::pa
 /// whoever does not want to wait for it ends the program with a second Ctrl-C.
 ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const CommandLine& line, const fs::path& folder)
 {
-    if (line.error_estimate) loop.set_look_share(ErrorLooks::large_share);
+    if (line.error_estimate) loop.estimate_error();
     const auto watcher = watch_beside(line, folder);
     const RunEnd end = loop.run();
     const RunSummary summary = summarise(opened, loop.statistics(), loop.clock(), end.incidents);

@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sensors/mass_flow.hpp"
 
-#include "core/base/statistics.hpp"
-
-#include <algorithm>
+#include <utility>
 
 namespace talus
 {
-namespace
-{
-
-constexpr int parts = 5; ///< of the steady window, for the spread
-
-} // namespace
 
 MassFlow::MassFlow(std::string sensor_name, const Vec3& point, const Vec3& normal, const TimeWindow& window)
     : Sensor(std::move(sensor_name)), point_(point), normal_(normal), window_(window)
@@ -37,13 +29,10 @@ void MassFlow::watch(const Snapshot& now)
     }
 }
 
-void MassFlow::sample(const Snapshot& now)
+MassFlow::Passed MassFlow::passed_so_far(const Snapshot& now) const
 {
     const State& state = now.state;
-    if (cell_length(now.model.periodicity) < infinity) {
-        samples_.push_back({state.time, flowed_mass_, flowed_count_});
-        return;
-    }
+    if (cell_length(now.model.periodicity) < infinity) return {state.time, flowed_mass_, flowed_count_};
     double behind = 0.0;
     std::int64_t behind_count = 0;
     for (std::size_t i = 0; i < state.count(); ++i) {
@@ -51,36 +40,26 @@ void MassFlow::sample(const Snapshot& now)
         behind += state.mass(i);
         ++behind_count;
     }
-    samples_.push_back({state.time, state.inserted_mass - behind, static_cast<double>(state.next_id - behind_count)});
+    return {state.time, state.inserted_mass - behind, static_cast<double>(state.next_id - behind_count)};
+}
+
+void MassFlow::sample(const Snapshot& now)
+{
+    const Passed before = std::exchange(passed_, passed_so_far(now));
+    if (!window_.contains(before.time) || !window_.contains(passed_.time)) return;
+    const double span = passed_.time - before.time;
+    mass_flow_.add((passed_.mass - before.mass) / span, span);
+    sphere_flow_.add((passed_.count - before.count) / span, span);
 }
 
 std::vector<Measurement> MassFlow::latest() const
 {
-    const Sample last = samples_.empty() ? Sample{} : samples_.back();
-    return {{"passed_mass", last.mass, 0.0, "kg"}, {"passed_count", last.count, 0.0, "1"}};
+    return {{"passed_mass", passed_.mass, 0.0, "kg"}, {"passed_count", passed_.count, 0.0, "1"}};
 }
 
 std::vector<Measurement> MassFlow::results() const
 {
-    LineFit mass, count;
-    std::vector<Sample> steady;
-    std::copy_if(samples_.begin(), samples_.end(), std::back_inserter(steady),
-        [&](const Sample& s) { return window_.contains(s.time); });
-    std::vector<LineFit> mass_part(parts), count_part(parts);
-    for (std::size_t k = 0; k < steady.size(); ++k) {
-        mass.add(steady[k].time, steady[k].mass);
-        count.add(steady[k].time, steady[k].count);
-        const auto part = k * parts / steady.size();
-        mass_part[part].add(steady[k].time, steady[k].mass);
-        count_part[part].add(steady[k].time, steady[k].count);
-    }
-    MeanAndError mass_slopes, count_slopes;
-    for (std::size_t p = 0; p < parts; ++p) {
-        mass_slopes.add(mass_part[p].slope());
-        count_slopes.add(count_part[p].slope());
-    }
-    return {{"mass_flow", mass.slope(), mass_slopes.standard_error(), "kg/s"},
-        {"sphere_flow", count.slope(), count_slopes.standard_error(), "1/s"}};
+    return {measurement("mass_flow", mass_flow_, "kg/s"), measurement("sphere_flow", sphere_flow_, "1/s")};
 }
 
 } // namespace talus

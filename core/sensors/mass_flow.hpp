@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/block_mean.hpp"
 #include "core/sensors/sensor.hpp"
 
 namespace talus
@@ -12,8 +13,8 @@ namespace talus
 /// Through a plane across a periodic axis, where nothing is behind or beyond, it is the mean over all such planes: in a
 /// step Σ m v·n h / length of the cell passes.
 ///
-/// The rate is the least-squares slope of the passed mass over the window; its spread is the standard error of the
-/// slopes of five equal parts of it.
+/// The result is the mean over the window, what has passed between its first sample and its last by the time between
+/// them, with the standard error of block means of the flow from sample to sample (block_mean.hpp).
 class MassFlow : public Sensor
 {
 public:
@@ -25,19 +26,25 @@ public:
     std::vector<Measurement> latest() const override;
     std::vector<Measurement> results() const override;
     std::string silence() const override { return "fewer than two samples fell into its window"; }
-    void persist(Archive& archive) override { archive(samples_, flowed_mass_, flowed_count_); }
+    void persist(Archive& archive) override { archive(passed_, mass_flow_, sphere_flow_, flowed_mass_, flowed_count_); }
 
 private:
-    struct Sample {
-        double time, mass, count;
+    /// What has passed up to a sample.
+    struct Passed {
+        double time = -infinity; ///< [s]; before the first sample in no window
+        double mass = 0.0;       ///< [kg]
+        double count = 0.0;
     };
     Vec3 point_, normal_;
     TimeWindow window_;
-    std::vector<Sample> samples_;
+    Passed passed_;                                 ///< up to the last sample
+    BlockMean mass_flow_, sphere_flow_;             ///< [kg/s], [1/s]
     double flowed_mass_ = 0.0, flowed_count_ = 0.0; ///< through planes across a periodic axis [kg], [1]
 
     /// The length of the cell along the normal [m]; infinite where that axis is not periodic.
     double cell_length(const Periodicity& periodicity) const;
+
+    Passed passed_so_far(const Snapshot& now) const;
 };
 
 } // namespace talus

@@ -153,12 +153,22 @@ Json to_json(const Measurement& m, double window)
     return json;
 }
 
+Json to_json(const ChangeOfResult& change)
+{
+    return {{"change", change.mean}, {"noise", change.noise}, {"pieces", change.pieces}, {"seen", change.is_seen()},
+        {"error", change.error()}};
+}
+
 Json to_json(const std::vector<SensorSummary>& sensors)
 {
     Json json = Json::object();
     for (const SensorSummary& sensor : sensors) {
         Json& quantities = json[sensor.name] = Json::object();
         for (const Measurement& m : sensor.results) quantities[m.name] = to_json(m, sensor.window);
+        for (std::size_t k = 0; k < sensor.by_step.size(); ++k) {
+            quantities[sensor.results[k].name]["step"] = to_json(sensor.by_step[k]);
+            quantities[sensor.results[k].name]["solver"] = to_json(sensor.by_solver[k]);
+        }
         for (const Measurement& m : sensor.results)
             if (!std::isfinite(m.value)) quantities[m.name]["silence"] = sensor.silence;
     }
@@ -208,6 +218,23 @@ Json to_json(const TimingSummary& timing)
 
 } // namespace
 
+bool ChangeOfResult::is_known() const
+{
+    constexpr std::int64_t least_pieces = 4;
+    return pieces >= least_pieces;
+}
+
+bool ChangeOfResult::is_seen() const
+{
+    return is_known() && std::abs(mean) > 3.0 * noise;
+}
+
+double ChangeOfResult::error() const
+{
+    if (!is_known()) return std::numeric_limits<double>::quiet_NaN();
+    return std::abs(mean) + (is_seen() ? 0.0 : 2.0 * noise);
+}
+
 std::string describe(const Incident& incident, const std::vector<std::string>& wall_names)
 {
     if (incident.kind == Incident::Kind::pressed) return describe_press(incident, wall_names);
@@ -234,6 +261,7 @@ std::string summary_text(const RunSummary& summary)
     const char* status = !summary.incidents.empty() ? "failed" : summary.interrupted ? "interrupted" : "done";
     Json error = to_json(summary.error);
     error["solver"] = to_json(summary.solver_error);
+    error["companions"] = {{"pieces", summary.companion_pieces}, {"length", summary.companion_length}};
     return text_of({{"status", status}, {"touched", summary.touched},
         {"incidents", to_json(summary.incidents, summary.wall_names)}, {"version", summary.version},
         {"scene", summary.scene}, {"title", summary.title}, {"seed", summary.seed},

@@ -25,12 +25,38 @@ struct ParticleLedger {
     bool closes() const { return inserted == inside + left + escaped + taken_out; }
 };
 
+/// By how much a result changes when the run is made otherwise: mean over pieces of it that companions have made
+/// (companions.hpp), in the unit of the result.
+struct ChangeOfResult {
+    double mean = std::numeric_limits<double>::quiet_NaN();
+    double noise = std::numeric_limits<double>::quiet_NaN(); ///< standard error of the mean
+    std::int64_t pieces = 0;
+
+    /// Whether there are enough pieces to tell a change from chance.
+    bool is_known() const;
+
+    /// Whether it is more than chance: three times the noise, which chance alone exceeds once in a hundred times (four
+    /// pieces) or less.
+    bool is_seen() const;
+
+    /// The size of a change that is seen; of another one what it may be at most, |mean| + 2 noise; not a number where
+    /// it is not known.
+    double error() const;
+};
+
 struct SensorSummary {
     std::string name;
     std::vector<Measurement> results;
     std::string silence; ///< why results are not numbers; empty where all are
     double window = 0.0; ///< over which they are averaged [s]
+    /// Of each result, with half the step, with a tenth of the tolerance; empty without companions.
+    std::vector<ChangeOfResult> by_step = {}, by_solver = {};
 };
+
+/// Said of a result that too few pieces have told something of.
+inline constexpr const char* too_few_pieces =
+    "fewer than four pieces of the run that companions have made fell into its window: what step and solver do to it "
+    "is not known";
 
 /// Said of a result whose samples are too few for its spread.
 inline constexpr const char* too_few_samples =
@@ -143,6 +169,8 @@ struct RunSummary {
     std::vector<SensorSummary> sensors;
     ErrorSummary error;
     SolverErrorSummary solver_error;
+    std::int64_t companion_pieces = 0; ///< of the run that companions have made
+    double companion_length = 0.0;     ///< of such a piece [s]
     TimingSummary timing;
 };
 

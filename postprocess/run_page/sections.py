@@ -79,7 +79,7 @@ def results(run):
                 if one.get("caution"):  # the sentence stands with the errors of the run
                     told = told.replace("±", "± at least")
                 cards.append(f"<div class='card'><span>{text(sensor)} · {text(name.replace('_', ' '))}</span>"
-                             f"<b>{text(told)}&thinsp;<small>{text(unit)}</small></b></div>")
+                             f"<b>{text(told)}&thinsp;<small>{text(unit)}</small></b>{changes(one)}</div>")
         if silent and len(silent) == len(quantities):
             cards.append(f"<div class='card quiet'><span>{text(sensor)}</span><p>{text(silent[0])}</p></div>")
     if not cards:
@@ -87,6 +87,17 @@ def results(run):
     shown, hidden = cards[:CARDS], cards[CARDS:]
     more = f"<details class='more'><summary>{len(hidden)} more results</summary><div class='cards'>{''.join(hidden)}</div></details>" if hidden else ""
     return f"<div class='cards'>{''.join(shown)}</div>{more}"
+
+
+def changes(result):
+    """What companions have found of step and solver; nothing where the run had none."""
+    parts = []
+    for cause in ("step", "solver"):
+        found = result.get(cause)
+        if found:
+            bound = "below " if found["error"] and not found["seen"] else ""
+            parts.append(f"{cause} ± " + ("?" if found["error"] is None else bound + number(found["error"], 2)))
+    return f"<span>{text(' · '.join(parts))}</span>" if parts else ""
 
 
 # What a run tells of itself when it is over, in this order.
@@ -147,6 +158,7 @@ def error(run):
                          f"worst {number(residual['worst'], 2)}; asked for {number(residual['tolerance'], 2)}"),
             ("Steps at the cap of sweeps", f"{number(residual['steps_at_cap'])} of {number(steps)}"),
             *solver_error(found.get("solver", {})),
+            *companions(found.get("companions", {})),
             ("Overlap", f"mean {percent(overlap['mean'])} d, worst {percent(overlap['worst'])} d at {number(overlap.get('worst_at'))} s"),
             ("Energy that nothing put in", f"{number(energy['gained'], 2)} J, beside {number(energy['lost'])} J lost to friction and impacts"
                                            + (f" and {number(energy['put_in'])} J put in" if energy.get("put_in") else ""))]
@@ -175,6 +187,14 @@ def solver_error(found):
     rows.append(("Found by", f"{number(found['looks'])} steps made once more, {number(found['to_the_end'])} of them solved to the end, "
                              f"all to a residual of {number(found['residual'], 2)}"))
     return rows
+
+
+def companions(found):
+    """Which pieces of the run were made again for what is said of step and solver beside each result."""
+    if not found.get("pieces"):
+        return []
+    return [("Companions", f"{number(found['pieces'])} pieces of {number(found['length'], 3)} s made again: as they were, with another "
+                           "seed, with half the step, with a tenth of the tolerance")]
 
 
 def percent(share):

@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/// At the end of a checkpoint: wall and CPU time of ten phases.
-constexpr std::size_t clock_bytes = 10 * 2 * sizeof(double);
+/// At the end of a checkpoint: wall and CPU time of eleven phases.
+constexpr std::size_t clock_bytes = 11 * 2 * sizeof(double);
 
 /// At its beginning: magic, format, byte order, version (0.1.0 with its length), size, checksum.
 constexpr std::size_t header_bytes = 8 + 4 + 4 + 8 + 5 + 8 + 4;

@@ -24,6 +24,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 POSTPROCESS = Path(__file__).resolve().parents[2] / "postprocess"
 sys.path.insert(0, str(POSTPROCESS))
 from read_run import Run, read_frame  # noqa: E402  found by the line above
+from run_page.sections import changes  # noqa: E402
 
 
 def call(script, *arguments):
@@ -125,6 +126,14 @@ def problems_of_text(run, page):
         yield "the run is not said to be done"
 
 
+def problems_of_changes():
+    seen, bound, unknown = {"error": 0.0012, "seen": True}, {"error": 0.003, "seen": False}, {"error": None, "seen": False}
+    for result, wanted in (({"step": seen, "solver": bound}, "<span>step ± 0.0012 · solver ± below 0.003</span>"),
+                           ({"step": unknown, "solver": unknown}, "<span>step ± ? · solver ± ?</span>"), ({"value": 1.0}, "")):
+        if changes(result) != wanted:
+            yield f"what companions found of {result} is told as {changes(result)}"
+
+
 def problems_of_refusals(run, folder):
     elsewhere = call("report.py", folder)
     if elsewhere.returncode != 2 or len(elsewhere.stderr.splitlines()) != 1:
@@ -178,6 +187,7 @@ def problems(out):
         page = Page(folder / "report.html")
         yield from problems_of_frames(run, page)
         yield from problems_of_text(run, page)
+        yield from problems_of_changes()
         yield from problems_of_refusals(run, folder)
         yield from problems_of_killed(run, folder)
         yield from problems_of_comparison(run, folder)

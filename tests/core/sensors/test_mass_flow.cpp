@@ -66,6 +66,17 @@ std::vector<double> random_passages(double rate, double start, double end, std::
     return times;
 }
 
+/// Poisson flows of twice this rate or of none, by chance, each for so long.
+std::vector<double> gusts(double rate, double length, double start, double end, std::uint64_t seed)
+{
+    Random random(seed);
+    std::vector<double> times;
+    for (double t = start; t < end; t += length)
+        if (random() % 2 == 0)
+            for (const double passage : random_passages(2.0 * rate, t, t + length, random())) times.push_back(passage);
+    return times;
+}
+
 } // namespace
 
 TEST_CASE("a constant flow is measured in mass and in spheres", "[mass_flow]")
@@ -93,22 +104,39 @@ TEST_CASE("only the steady window counts", "[mass_flow]")
 
 TEST_CASE("the spread is as large as the error that noise makes", "[mass_flow]")
 {
-    // The count of a Poisson flow of rate λ wanders like a random walk, whose fitted slope over a time T has a variance
-    // of 6/5 λ/T; that of the mean of five slopes over T/5 is the same.
-    constexpr double rate = 500.0, window = 2.0;
-    const double expected = std::sqrt(1.2 * rate / window);
-    double errors = 0.0, spreads = 0.0;
+    // A Poisson flow of rate λ: over a time T the mean rate has a variance of λ/T. One that comes in gusts, with twice
+    // the rate or none for a time τ each, has λ² τ/T more, and forgets within τ.
+    constexpr double rate = 500.0, window = 8.0;
+    const double gust = GENERATE(0.0, 0.1);
+    const double expected = std::sqrt(rate / window + rate * rate * gust / window);
+    double errors = 0.0, spreads = 0.0, independent = 0.0;
+    int too_few = 0;
     constexpr int runs = 60;
     for (std::uint64_t seed = 1; seed <= runs; ++seed) {
-        Stream stream(random_passages(rate, -1.0, 4.0, seed));
+        Stream stream(gust > 0.0 ? gusts(rate, gust, -1.0, 9.0, seed) : random_passages(rate, -1.0, 9.0, seed));
         auto sensor = downwards(0.5, 0.5 + window);
-        sample_until(sensor, stream, 3.0);
+        sample_until(sensor, stream, 9.0);
         const auto flow = sensor.results()[1];
         errors += (flow.value - rate) * (flow.value - rate) / runs;
         spreads += flow.spread * flow.spread / runs;
+        independent += *flow.independent / runs;
+        too_few += flow.too_few;
     }
-    CHECK(std::sqrt(errors) == Approx(expected).epsilon(0.3));   // root mean squares of 60 and 240 independent numbers:
-    CHECK(std::sqrt(spreads) == Approx(expected).epsilon(0.15)); // 9 and 5 % of error, three times that allowed
+    CHECK(std::sqrt(errors) == Approx(expected).epsilon(0.3)); // of 60 numbers: 9 % of error, three times that
+    CHECK(std::sqrt(spreads) == Approx(expected).epsilon(0.15));
+    // Of 800 samples; from a dozen blocks of gusts it is by a fifth too large on average.
+    CHECK(independent == Approx(gust > 0.0 ? 1.2 * window / gust : 800.0).epsilon(0.3));
+    CHECK(too_few == 0);
+}
+
+TEST_CASE("a flow that goes on to fade in its window is said to be known too little", "[mass_flow]")
+{
+    auto times = even_passages(1000.0, 0.0, 1.0); // one at t comes at 2 t²: ever fewer
+    for (double& t : times) t = 2.0 * t * t;
+    Stream stream(times);
+    auto sensor = downwards(0.05, 2.0);
+    sample_until(sensor, stream, 2.0);
+    CHECK(sensor.results()[1].too_few);
 }
 
 TEST_CASE("a sphere that left through an outlet has passed", "[mass_flow]")
