@@ -82,9 +82,8 @@ void add_run_options(CLI::App& verb, CommandLine& line)
 void add_error_flag(CLI::App& verb, CommandLine& line)
 {
     verb.add_flag("--error-estimate", line.error_estimate,
-        "Tell what step and solver do to each result, by companions, and look closer at the error of the solver: the "
-        "run "
-        "takes about three times as long");
+        "Tell what step and solver do to each result, by companions, and look closer at the error of the solver: "
+        "the run takes about three times as long");
 }
 
 void add_page_flags(CLI::App& verb, CommandLine& line)
