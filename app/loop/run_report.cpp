@@ -93,6 +93,14 @@ std::string told_errors(const SensorSummary& sensor, std::size_t k)
     return text;
 }
 
+/// Whether companions have made too few pieces for one of the results that there are.
+bool has_too_few_pieces(const SensorSummary& sensor)
+{
+    for (std::size_t k = 0; k < sensor.by_step.size(); ++k)
+        if (std::isfinite(sensor.results[k].value) && !sensor.by_step[k].is_known()) return true;
+    return false;
+}
+
 void print_sensors(const RunSummary& summary)
 {
     for (const SensorSummary& sensor : summary.sensors)
@@ -109,8 +117,7 @@ void print_sensors(const RunSummary& summary)
         if (std::ranges::any_of(
                 sensor.results, [](const Measurement& m) { return m.too_few && std::isfinite(m.spread); }))
             say("  {:<28} {}\n", sensor.name, too_few_samples);
-        if (std::ranges::any_of(sensor.by_step, [](const ChangeOfResult& change) { return !change.is_known(); }))
-            say("  {:<28} {}\n", sensor.name, too_few_pieces);
+        if (has_too_few_pieces(sensor)) say("  {:<28} {}\n", sensor.name, too_few_pieces);
     }
 }
 
