@@ -92,16 +92,16 @@ class Analysis(unittest.TestCase):
     def test_front_and_top_of_a_deposit(self):
         # Layers of beads, two diameters thick up to 0.2 m and a tenth of a diameter beyond.
         random = numpy.random.default_rng(1)
-        for is_round in (False, True):
+        for kind in ("slot", "round"):
             radius = 0.5 * column_collapse.DIAMETER
             bead = 4 / 3 * math.pi * radius**3
-            floor = column_collapse.area(numpy.array([0.2, 0.3]), is_round)
+            floor = column_collapse.area(numpy.array([0.2, 0.3]), kind)
             thick, thin = (numpy.array([2, 0.1]) * column_collapse.DIAMETER * column_collapse.FRACTION
                            * numpy.diff(floor, prepend=0) / bead).astype(int)
             share = numpy.concatenate([random.random(thick) * floor[0],
                                        floor[0] + random.random(thin) * (floor[1] - floor[0])])
-            distance = numpy.sqrt(share / math.pi * 4) if is_round else share / column_collapse.DEPTH
-            found = column_collapse.front(distance, numpy.full(len(distance), radius), is_round)
+            distance = numpy.sqrt(share / math.pi * 4) if kind == "round" else share / column_collapse.DEPTH
+            found = column_collapse.front(distance, numpy.full(len(distance), radius), kind)
             self.assertAlmostEqual(found, 0.2, delta=1.1 * column_collapse.DIAMETER)
         spheres = SimpleNamespace(radii=numpy.full(3, 0.0025), positions=numpy.array(
             [[0.001, 0.001, 0.0025], [0.002, 0.001, 0.0075], [0.006, 0.001, 0.0025]]))

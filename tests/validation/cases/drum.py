@@ -67,11 +67,13 @@ def steady(run, froude):
     inside = time >= begin
     power = torque[inside].mean() * rate(froude)
     stored = (energy[-1] - energy[inside][0]) / (time[-1] - time[inside][0])
-    rates = numpy.where(time > SLOW, rate(froude), numpy.where(time > BEGIN, FAST, 0.0))
+    steps = numpy.diff(time, prepend=0)
+    middle = time - 0.5 * steps  # a torque is the mean since the sample before
+    rates = numpy.where(middle > SLOW, rate(froude), numpy.where(middle > BEGIN, FAST, 0.0))
     moments = [offset_moment(run.frame(frame.time)) for frame in run.frames() if frame.time >= begin]
     return Steady(metrics["surface_angle_deg"][inside], torque[inside].mean() / numpy.mean(moments),
                   1 - stored / power,
-                  float(torque @ (rates * numpy.diff(time, prepend=0))) / run.summary()["error"]["energy"]["put_in"])
+                  float(torque @ (rates * steps)) / run.summary()["error"]["energy"]["put_in"])
 
 
 def judge(runs):
