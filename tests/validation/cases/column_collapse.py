@@ -46,8 +46,8 @@ class Collapse(NamedTuple):
 
 def collapse(kind, aspect):
     scene, count, key, top = {
-        "slot": ("slot_collapse", 1248, "max", f"[{LENGTH}, {DEPTH}, {0.1 * aspect:g}]"),
-        "round": ("quarter_collapse", 3563, "height", 0.092 * aspect)}[kind]
+        "slot": ("slot_collapse", 1240, "max", f"[{LENGTH}, {DEPTH}, {0.1 * aspect + 0.02:g}]"),
+        "round": ("quarter_collapse", 3550, "height", 0.13 * aspect + 0.01)}[kind]
     times = 6 if aspect <= 2 else 4.2  # √(h/g)
     return over_seeds(f"collapse_{kind}_{aspect:g}", scene, {
         "fill.0.count": round(count * aspect), f"fill.0.region.{key}": top,
@@ -70,7 +70,7 @@ def area(distance, kind):
 
 def front(distance, radii, kind):
     """Where the deposit becomes thinner than THICKNESS, going outwards [m]."""
-    edges = numpy.arange(0, distance.max() + 3 * DIAMETER, 2 * DIAMETER)
+    edges = numpy.arange(0, distance.max() + 4 * DIAMETER, 2 * DIAMETER)  # the last is empty
     solid = numpy.histogram(distance, edges, weights=4 / 3 * math.pi * radii.astype(float) ** 3)[0]
     thickness = solid / (FRACTION * numpy.diff(area(edges, kind))) / DIAMETER
     middles = 0.5 * (edges[1:] + edges[:-1])

@@ -13,8 +13,7 @@ Lagrée, Staron & Popinet (2011, J. Fluid Mech. 686, 378). By depth ū/√(g h) 
 11, 542), h_stop/d = B (tan θ2 − tan θ)/(tan θ − tan θ1); of spheres like these θ1 = 17.6°, θ2 = 32.3°, B = 3.8, β = 0.19
 (Weinhart, Thornton, Luding & Bokhove 2012, Granular Matter 14, 531; from memory).
 
-Parameters: beads ± 5 %, 18 diameters deep, cell 12 × 8 diameters. At 15° for 4 s, at 24 and 28° for 8 s, averaged over
-the last 3, at 33° for 5 s, averaged over the last 2.
+Parameters: beads ± 5 %, 12 diameters deep, cell 12 × 8 diameters. For 5 s, averaged over the last 2; at 15° for 4 s.
 
 Tolerances, fixed before the runs:
 - 15°: mean speed at the end up to 1e-3 √(g d). 33°: acceleration above 0.02 g sin θ. 24 and 28°: 0 ± 0.02 g sin θ.
@@ -32,7 +31,7 @@ from case import Row, over_seeds
 TITLE = "rough incline"
 FINDINGS = ""
 GRAVITY, DIAMETER, AREA = 9.81, 0.01, 0.12 * 0.08  # as in scenes/rough_incline.toml
-TIMES = {15: (3.0, 4.0), 24: (5.0, 8.0), 28: (5.0, 8.0), 33: (3.0, 5.0)}  # from when to when, s
+TIMES = {15: (3.0, 4.0), 24: (3.0, 5.0), 28: (3.0, 5.0), 33: (3.0, 5.0)}  # from when to when, s
 STEADY = (24, 28)  # degrees
 MU_S, MU_2, I0 = 0.382, 0.643, 0.279  # glass beads, Jop et al. 2006
 THETA_1, THETA_2, B = math.radians(17.6), math.radians(32.3), 3.8  # Weinhart et al. 2012
@@ -90,7 +89,7 @@ def flow(run, angle):
     filled = fraction > 0
     mean_velocity = float(numpy.average(velocity[filled], weights=fraction[filled]))
     volume = float(4 / 3 * math.pi * numpy.sum(run.frame().radii.astype(float) ** 3))
-    height = volume / (AREA * fraction[(z > 0.02) & (z < 0.1)].mean())
+    height = volume / (AREA * fraction[(z > 0.02) & (z < 0.08)].mean())
     core = (z > 2 * DIAMETER) & (z < height - 3 * DIAMETER)
     inside = (z > DIAMETER) & (z < height - 2 * DIAMETER)
     a, _, fitted = bagnold(z[inside], velocity[inside], height)
@@ -100,7 +99,7 @@ def flow(run, angle):
 
 
 def acceleration(run, angle):
-    """Of the beads between two and fifteen diameters above the bed, in the window, by g sin θ."""
+    """Of the beads between two and ten diameters above the bed, in the window, by g sin θ."""
     metrics = run.metrics()
     inside = metrics["time_s"] >= TIMES[angle][0]
     slope = numpy.polyfit(metrics["time_s"][inside], metrics["flow_velocity_x_m_per_s"][inside], 1)[0]
