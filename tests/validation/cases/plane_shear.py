@@ -14,7 +14,8 @@ without three layers at each plate, of strains of 1.6 and more after half as muc
 through I = 0.01 and 0.04; without friction it is one in I^0.38 (Peyneau & Roux, from memory), through three points.
 
 Tolerances, fixed before the runs: η ± 0.02 and φ_c ± 0.015, since Chialvo's table was quoted from memory and is of beads
-of one size; μ(I) of glass beads ± 0.04; slope of φ(I) from −0.4 to −0.1. Incline less plane shear: μ ± 0.02, φ ± 0.01.
+of one size; μ(I) of glass beads ± 0.04; slope of φ(I) from −0.4 to −0.1. Incline of 24° less plane shear:
+μ ± 0.02, φ ± 0.01.
 """
 import math
 from typing import NamedTuple
@@ -26,7 +27,13 @@ from case import Row, over_seeds
 from . import incline
 
 TITLE = "plane shear"
-FINDINGS = ""
+FINDINGS = """With friction the strengths are 0.02 to 0.04 below the table, more at high friction, while the solid fractions
+agree. That is not explained yet: the table was quoted from memory, its beads are of one size and rebound, and here two
+plates are twelve diameters apart; none of these was varied. Without friction the limit lies far below the slowest run,
+and hangs on the power of I that was assumed. At I = 0.1 friction 0.5 is weaker than glass beads by as much as when slow.
+The incline has the friction and the density of plane shear at its inertial number, whatever their difference to others:
+a fault of the stresses that are measured in the region would show there, since on the incline nothing is measured but
+velocities and the solid fraction."""
 DIAMETER, DENSITY, PRESSURE, HEIGHT = 0.01, 2500.0, 1000.0, 0.12  # as in scenes/plane_shear.toml
 PRESSED = 0.5  # s, when the load is there
 SLOW, FAST = (0.01, 0.04), (0.1, 0.2)  # inertial numbers that are aimed at
@@ -34,6 +41,7 @@ FRICTIONS = (0.0, 0.1, 0.3, 0.5, 1.0)
 STRAINS = {0.01: (0.8, 2.4), 0.04: (2, 6)}  # from when to when; of faster ones (5, 15)
 STRENGTHS = {0.0: 0.105, 0.1: 0.268, 0.3: 0.357, 0.5: 0.382, 1.0: 0.405}
 FRACTIONS = {0.0: 0.636, 0.1: 0.613, 0.3: 0.596, 0.5: 0.587, 1.0: 0.581}
+BESIDE = 24  # degrees of the incline whose inertial number lies among these
 CHIALVO = "Chialvo et al. 2012, from memory"
 
 
@@ -97,16 +105,14 @@ def judge(runs):
     yield Row("friction 0.5: dφ/dI", "−0.2 (Pouliquen et al. 2006, from memory)", "−0.4 to −0.1", -0.4, -0.1,
               tuple(float(numpy.polyfit([one.inertial_number for one in seed], [one.fraction for one in seed], 1)[0])
                     for seed in found[0.5]))
-    for angle in incline.STEADY:
-        flows = [incline.flow(runs[run.name], angle) for run in incline.tilted(angle)]
-        for what, own, field, margin in (("tan θ", lambda flow: math.tan(math.radians(angle)), "mu", 0.02),
-                                         ("solid fraction", lambda flow: flow.fraction, "fraction", 0.01)):
-            yield Row(f"incline of {angle}°: {what} less that of plane shear at its I", "0, local", f"± {margin:g}",
-                      -margin, margin, tuple(
-                          own(flow) - float(numpy.interp(flow.inertial_number,
-                                                         [one.inertial_number for one in seed],
-                                                         [getattr(one, field) for one in seed]))
-                          for flow, seed in zip(flows, found[0.5])))
+    flows = [incline.flow(runs[run.name], BESIDE) for run in incline.tilted(BESIDE)]
+    for what, own, field, margin in (("tan θ", lambda flow: math.tan(math.radians(BESIDE)), "mu", 0.02),
+                                     ("solid fraction", lambda flow: flow.fraction, "fraction", 0.01)):
+        yield Row(f"incline of {BESIDE}°: {what} less that of plane shear at its I", "0, local", f"± {margin:g}", -margin,
+                  margin, tuple(own(flow) - float(numpy.interp(flow.inertial_number,
+                                                               [one.inertial_number for one in seed],
+                                                               [getattr(one, field) for one in seed]))
+                                for flow, seed in zip(flows, found[0.5])))
 
 
 def draw(figure, runs):
