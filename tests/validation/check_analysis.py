@@ -6,15 +6,18 @@
 
 Exit codes: 0 all is found, 1 it is not.
 """
+import math
 import sys
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).resolve().parents[2] / "postprocess")]
 from case import Row  # noqa: E402  found by the line above
-from cases import beverloo, force_distribution, granular_gas, janssen, packings  # noqa: E402
+from cases import (beverloo, column_collapse, drum, force_distribution, granular_gas, incline,  # noqa: E402
+                   janssen, packings, plane_shear)
 from page import with_error  # noqa: E402
 
 
@@ -62,6 +65,53 @@ class Analysis(unittest.TestCase):
     def test_fraction_of_coordination(self):
         self.assertAlmostEqual(packings.fraction_of(6), 0.634, places=3)
         self.assertAlmostEqual(packings.fraction_of(4), 0.536, places=3)
+
+    def test_moment_of_a_drum(self):
+        # Two beads on the side that rises, one of eight times their mass opposite at a quarter of the distance.
+        spheres = SimpleNamespace(radii=numpy.array([1, 1, 2.0]),
+                                  positions=numpy.array([[-1, 0, 0], [-1, 0, 5], [0.25, 0, 0]]))
+        self.assertAlmostEqual(drum.offset_moment(spheres), 0.0, places=9)
+        spheres.positions[2, 0] = 0.0
+        self.assertAlmostEqual(drum.offset_moment(spheres), 2 * 9.81 * 2500 * 4 / 3 * math.pi, places=6)
+
+    def test_bagnold(self):
+        z = numpy.linspace(0.01, 0.16, 16)
+        a, slip, fitted = incline.bagnold(z, 0.1 + 7 * (0.18**1.5 - (0.18 - z) ** 1.5), 0.18)
+        self.assertAlmostEqual(a, 7, places=9)
+        self.assertAlmostEqual(slip, 0.1, places=9)
+        self.assertAlmostEqual(fitted[0], 0.1 + 7 * (0.18**1.5 - 0.17**1.5), places=9)
+        # A slope and the inertial number of a layer that flows so are bound by the stresses at any depth.
+        self.assertAlmostEqual(incline.mu_of(incline.I0), 0.5 * (incline.MU_S + incline.MU_2), places=12)
+        self.assertAlmostEqual(incline.h_stop(24), 5.6, delta=0.1)
+
+    def test_limit_of_slow_shear(self):
+        numbers = numpy.array([0.005, 0.02, 0.08])
+        self.assertAlmostEqual(plane_shear.limit(numbers, 0.38 + 0.9 * numbers, 0.5), 0.38, places=9)
+        self.assertAlmostEqual(plane_shear.limit(numbers, 0.1 + 0.4 * numbers**0.38, 0.0), 0.1, places=9)
+
+    def test_front_and_top_of_a_deposit(self):
+        # Layers of beads, two diameters thick up to 0.2 m and a tenth of a diameter beyond.
+        random = numpy.random.default_rng(1)
+        for kind in ("slot", "round"):
+            radius = 0.5 * column_collapse.DIAMETER
+            bead = 4 / 3 * math.pi * radius**3
+            floor = column_collapse.area(numpy.array([0.2, 0.3]), kind)
+            thick, thin = (numpy.array([2, 0.1]) * column_collapse.DIAMETER * column_collapse.FRACTION
+                           * numpy.diff(floor, prepend=0) / bead).astype(int)
+            share = numpy.concatenate([random.random(thick) * floor[0],
+                                       floor[0] + random.random(thin) * (floor[1] - floor[0])])
+            distance = numpy.sqrt(share / math.pi * 4) if kind == "round" else share / column_collapse.DEPTH
+            found = column_collapse.front(distance, numpy.full(len(distance), radius), kind)
+            self.assertAlmostEqual(found, 0.2, delta=1.1 * column_collapse.DIAMETER)
+        spheres = SimpleNamespace(radii=numpy.full(3, 0.0025), positions=numpy.array(
+            [[0.001, 0.001, 0.0025], [0.002, 0.001, 0.0075], [0.006, 0.001, 0.0025]]))
+        self.assertAlmostEqual(column_collapse.top(spheres, spheres.positions[:, 0], 0.1), 0.0075, places=9)
+        self.assertAlmostEqual(column_collapse.top(spheres, spheres.positions[:, 0], 0.005), 0.01, places=9)
+
+    def test_exponent_of_collapses(self):
+        collapses = [column_collapse.Collapse(a, 1.6 * a**0.5, a, 1, 3, 0) for a in (2, 4, 8)]
+        self.assertAlmostEqual(column_collapse.power(collapses, "run_out"), 0.5, places=9)
+        self.assertAlmostEqual(column_collapse.prefactor(collapses, "run_out", 0.5), 1.6, places=9)
 
 
 class Page(unittest.TestCase):

@@ -9,7 +9,7 @@ PAGE = Path(__file__).resolve().parents[1] / "results/validation.md"
 # What the page is to hold, in its order, with the cases that are not there yet.
 ALL = ("Beverloo's law", "fill height, sizes and friction in Beverloo's silo", "conical hopper", "clogging",
        "Janssen's silo", "angle of repose", "column collapse", "rotating drum",
-       "rough incline and plane shear", "packings", "force distribution", "granular gas", "impact crater",
+       "rough incline", "plane shear", "packings", "force distribution", "granular gas", "impact crater",
        "Chung & Ooi's tests", "segregation", "the round robin of Dosta et al. 2024",
        "the same hopper, pile and drum in LIGGGHTS and LAMMPS")
 
