@@ -23,7 +23,7 @@ class Row(NamedTuple):
     tolerance: str  # [low, high], as the page says it
     low: float
     high: float
-    values: tuple[float, ...]  # one for each seed
+    values: tuple[float, ...]  # one for each seed; where chance has no part, one
 
     @property
     def mean(self):
@@ -31,7 +31,8 @@ class Row(NamedTuple):
 
     @property
     def standard_error(self):
-        return statistics.stdev(self.values) / math.sqrt(len(self.values)) if len(self.values) > 1 else math.nan
+        """0 of one value, where chance has no part."""
+        return statistics.stdev(self.values) / math.sqrt(len(self.values)) if len(self.values) > 1 else 0.0
 
     @property
     def within(self):

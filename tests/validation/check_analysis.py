@@ -14,7 +14,7 @@ import numpy
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).resolve().parents[2] / "postprocess")]
 from case import Row  # noqa: E402  found by the line above
-from cases import beverloo, force_distribution, granular_gas, janssen, packings  # noqa: E402
+from cases import beverloo, chung_ooi, force_distribution, granular_gas, janssen, packings  # noqa: E402
 from page import with_error  # noqa: E402
 
 
@@ -62,6 +62,16 @@ class Analysis(unittest.TestCase):
     def test_fraction_of_coordination(self):
         self.assertAlmostEqual(packings.fraction_of(6), 0.634, places=3)
         self.assertAlmostEqual(packings.fraction_of(4), 0.536, places=3)
+
+    def test_rigid_impact(self):
+        # By hand: 3.9 m/s at 35°, e = 0.98, μ = 0.092: v_n = 3.1947, v_t = 2.2369, J_t/m = 0.58195.
+        restitution, spin, angle = chung_ooi.rigid_4(35)
+        self.assertAlmostEqual(restitution, 0.73984, places=4)
+        self.assertAlmostEqual(spin, 581.95, places=1)
+        self.assertAlmostEqual(angle, numpy.degrees(numpy.arctan(0.20008 / 3.13081)), places=2)
+        restitution, _, angle = chung_ooi.rigid_4(10)  # sticks
+        self.assertAlmostEqual(restitution, 5 / 7, places=12)
+        self.assertEqual(angle, 0)
 
 
 class Page(unittest.TestCase):

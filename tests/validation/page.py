@@ -18,9 +18,10 @@ HEAD = """# Beside theory and experiment
 Bulk behaviour that others have measured, computed or derived, and what Talus has for it. `tests/run validation`
 makes the runs and writes this page; the docstring of each case, in `tests/validation/cases/`, says more of its law,
 parameters and sources, and why its tolerance is what it is. Values are the mean over {seeds} seeds ± its standard
-error, and are within their tolerance where the mean is; tolerances were written down before the runs, but where the
-docstring says other. References "from memory" were not read again: their tolerances are wide for that. Seconds are
-those of the processor, of all runs of a case; cases may share runs.
+error, and are within their tolerance where the mean is; one without an error is of one run, where chance has no part.
+Tolerances were written down before the runs, but where the docstring says other. References "from memory" were not read
+again: their tolerances are wide for that. Seconds are those of the processor, of all runs of a case; cases may share
+runs.
 
 {verdict}
 
@@ -70,7 +71,7 @@ def write_page(cases):
     modules = {name: importlib.import_module(f"cases.{name}") for name in cases}
     in_order = sorted(cases, key=lambda name: ALL.index(modules[name].TITLE))
     there = {module.TITLE for module in modules.values()}
-    seeds = min(len(row["values"]) for case in cases.values() for row in case["rows"])
+    seeds = min(len(row["values"]) for case in cases.values() for row in case["rows"] if len(row["values"]) > 1)
     head = HEAD.format(seeds={3: "three"}.get(seeds, seeds), verdict=verdict_of(cases),
                        missing="; ".join(title for title in ALL if title not in there))
     sections = (section(name, cases[name], modules[name]) for name in in_order)
