@@ -14,6 +14,8 @@ class Simulation(NamedTuple):
     scene: str  # a name of scenarios/ or of tests/validation/scenes/
     settings: dict[str, object] = {}  # as of --set
     seed: int = 1
+    program: str = ""  # "lammps" or "liggghts" runs the scene as a deck of theirs; otherwise Talus does …
+    modulus: str = ""  # … with this Young's modulus [Pa], or that which the deck has
 
 
 class Row(NamedTuple):
@@ -45,6 +47,6 @@ def scene_file(scene):
     return str(path) if path.is_file() else scene
 
 
-def over_seeds(name, scene, settings=None, seeds=SEEDS):
+def over_seeds(name, scene, settings=None, seeds=SEEDS, program="", modulus=""):
     """The same scene once with each seed, named NAME_SEED."""
-    return [Simulation(f"{name}_{seed}", scene, settings or {}, seed) for seed in seeds]
+    return [Simulation(f"{name}_{seed}", scene, settings or {}, seed, program, modulus) for seed in seeds]
