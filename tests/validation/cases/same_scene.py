@@ -30,10 +30,15 @@ TURNING = (1.5, 3.0)  # s
 DRUM = 0.12  # radius, m
 SCENES = {
     "hopper": ("hopper", {"fill.0.count": 4000, "time.duration": FLOWING[1]}),
-    "pile": ("funnel_pile", {"time.duration": 4.0}),
+    # A room no larger than it must be: LAMMPS and LIGGGHTS clear all its cells whenever they list neighbours anew.
+    "pile": ("funnel_pile", {
+        "time.duration": 4.0, "world.min": "[-0.25, -0.25, -0.2]", "world.max": "[0.25, 0.25, 0.6]",
+        "world.on_escape": "remove", "outlet.0.region.min": "[-0.25, -0.25, -0.2]",
+        "outlet.0.region.max": "[0.25, 0.25, -0.1]"}),
     "drum": ("drum", {
-        "fill.0.count": 1300, "fill.0.diameter.min": 0.0095, "fill.0.diameter.max": 0.0105, "fill.0.region.radius": DRUM,
-        "fill.0.region.height": 0.05, "wall.drum.radius": DRUM, "wall.drum.height": 0.05,
+        "fill.0.count": 1300, "fill.0.arrangement": "dense", "fill.0.diameter.min": 0.0095,
+        "fill.0.diameter.max": 0.0105, "fill.0.region.radius": DRUM, "fill.0.region.height": 0.05,
+        "wall.drum.radius": DRUM, "wall.drum.height": 0.05,
         "world.max": "[inf, 0.05, inf]", "wall.drum.motion.0.rate": 0.904, "time.duration": TURNING[1],
         "time.frame_interval": 0.05}),
 }

@@ -8,7 +8,8 @@ Nagel 1993, Phys. Rev. Lett. 70, 3728; both quoted from memory).
 
 Parameters: 1150 beads of 5 mm ± 5 %, friction 0.5 between them and at the walls, restitution 0.5, ten deep in a box ten
 wide; a sphere of the same stuff, 3 or 2 beads in diameter, begins at the bottom. Shaken 15 times a second with 3.5 times
-the acceleration of gravity for 8 s, 120 periods. The same in LIGGGHTS, with the deck of `talus export`.
+the acceleration of gravity for 8 s, 120 periods. The same in LIGGGHTS, with the deck of `talus export`; that and the
+smaller sphere with one seed, for their time.
 
 Tolerances, fixed before the runs:
 - at the end 0.8 to 1 of the beads are below the centre of the large sphere.
@@ -21,23 +22,27 @@ import math
 
 import numpy
 
-from case import Row, over_seeds
+from case import SEEDS, Row, over_seeds
 from deck import spheres_of
 
 TITLE = "segregation"
-FINDINGS = ""
+FINDINGS = """The rise in LIGGGHTS is twice as fast because its beads are soft there, 5e6 Pa as `talus export` has it: a
+soft bed is thrown up again where it lands, and a rigid one is not. With `-var modulus 2e7` the beads within 2.5 diameters
+of the axis rose 11.0 mm/s in the first two seconds, of seed 1, in place of 18.6; in Talus, whose contacts are rigid, 7.2
+to 8.6 with the three seeds. A still stiffer run of LIGGGHTS was not made."""
 SHAKEN = 0.3  # s, from when on
 RISEN = 0.8  # share of the beads that are below
 
 
-def nut(diameter, program=""):
+def nut(diameter, seeds=SEEDS, program=""):
     return over_seeds(f"brazil_nut_{diameter}{program and '_' + program}", "brazil_nut", {
         "fill.0.diameter": diameter, "fill.0.position": [0, 0, diameter / 2 + 1e-4],
         "fill.1.except.0.center": [0, 0, diameter / 2 + 1e-4], "fill.1.except.0.radius": diameter / 2 + 2e-4},
-        program=program)
+        seeds, program)
 
 
-LARGE, SMALL, PEER = nut(0.015), nut(0.010), nut(0.015, "liggghts")
+LARGE, SMALL = nut(0.015), nut(0.010, seeds=(1,))
+PEER = nut(0.015, seeds=(1,), program="liggghts")
 RUNS = [*LARGE, *SMALL, *PEER]
 
 
