@@ -5,9 +5,10 @@ Law: none; two codes of soft spheres (Hertz and Mindlin contacts, damping from t
 compared with experiments, begin with the same beads and walls: decks that `talus export` writes of the scenes.
 
 Parameters: Debian's LAMMPS (29 Sep 2021) and LIGGGHTS 3.8, a step of a fifth of Rayleigh's time, E as `talus export`
-chooses it, 500 times the pressure of the bed or 5e6 Pa. Beads of 10 mm ± 5 %, friction and restitution 0.5.
+chooses it: 500 times the pressure of the bed, or 5e6 Pa. Beads of 10 mm ± 5 %, friction and restitution 0.5.
 - hopper: the supplied scene with 4000 beads, open after 0.8 s; beads a second from 1.0 to 1.8 s.
-- pile: scenes/funnel_pile.toml, 3000 beads, at 4 s; the line through ring means of the highest tops.
+- pile: scenes/funnel_pile.toml, 3000 beads, at 4 s; the line through ring means of the highest tops. Two
+  seeds, of LAMMPS one, for their time.
 - drum: the supplied scene with 1300 beads of 10 mm in a drum 24 of them wide and five deep, at a Froude number of 0.01;
   the line through the highest tops in the middle half of the surface, mean over 1.5 to 3 s.
 
@@ -23,11 +24,14 @@ from deck import spheres_of
 from page import with_error
 
 TITLE = "the same hopper, pile and drum in LIGGGHTS and LAMMPS"
-FINDINGS = ""
+FINDINGS = """Contacts are rigid in Talus and soft in the decks, 5e6 to 5.8e6 Pa; no more of that shows in these three
+than in the scatter of single runs. The drum's surface is nearly a degree steeper in Talus, which is 1.4 standard
+errors."""
 CODES = {"": "Talus", "lammps": "LAMMPS", "liggghts": "LIGGGHTS"}
 FLOWING = (1.0, 1.8)  # s
 TURNING = (1.5, 3.0)  # s
 DRUM = 0.12  # radius, m
+PILES = {"": 2, "lammps": 1, "liggghts": 2}  # how many there was time for
 SCENES = {
     "hopper": ("hopper", {"fill.0.count": 4000, "time.duration": FLOWING[1]}),
     # A room no larger than it must be: LAMMPS and LIGGGHTS clear all its cells whenever they list neighbours anew.
@@ -46,7 +50,8 @@ SCENES = {
 
 def simulations(what, code):
     scene, settings = SCENES[what]
-    return over_seeds(f"same_{what}{code and '_' + code}", scene, settings, program=code)
+    seeds = SEEDS[:PILES[code]] if what == "pile" else SEEDS
+    return over_seeds(f"same_{what}{code and '_' + code}", scene, settings, seeds, code)
 
 
 RUNS = [run for what in SCENES for code in CODES for run in simulations(what, code)]
@@ -114,7 +119,8 @@ def judge(runs):
 def draw(figure, runs):
     for axes, (what, (quantity, _)) in zip(figure.subplots(1, 3), MEASURES.items()):
         for k, code in enumerate(CODES):
-            axes.plot([k] * len(SEEDS), found(runs, what, code), "C3o" if k == 0 else "ko", markersize=4,
+            values = found(runs, what, code)
+            axes.plot([k] * len(values), values, "C3o" if k == 0 else "ko", markersize=4,
                       markerfacecolor="none")
         axes.set(title=what, ylabel=quantity, xlim=(-0.5, 2.5))
         axes.set_xticks(range(3), CODES.values(), rotation=45)
