@@ -14,6 +14,8 @@ class Simulation(NamedTuple):
     scene: str  # a name of scenarios/ or of tests/validation/scenes/
     settings: dict[str, object] = {}  # as of --set
     seed: int = 1
+    program: str = ""  # "lammps" or "liggghts" runs the scene as a deck of theirs; otherwise Talus does …
+    modulus: str = ""  # … with this Young's modulus [Pa], or that which the deck has
 
 
 class Row(NamedTuple):
@@ -23,7 +25,7 @@ class Row(NamedTuple):
     tolerance: str  # [low, high], as the page says it
     low: float
     high: float
-    values: tuple[float, ...]  # one for each seed
+    values: tuple[float, ...]  # one for each seed; where chance has no part, one
 
     @property
     def mean(self):
@@ -31,7 +33,8 @@ class Row(NamedTuple):
 
     @property
     def standard_error(self):
-        return statistics.stdev(self.values) / math.sqrt(len(self.values)) if len(self.values) > 1 else math.nan
+        """0 of one value, where chance has no part."""
+        return statistics.stdev(self.values) / math.sqrt(len(self.values)) if len(self.values) > 1 else 0.0
 
     @property
     def within(self):
@@ -44,6 +47,6 @@ def scene_file(scene):
     return str(path) if path.is_file() else scene
 
 
-def over_seeds(name, scene, settings=None, seeds=SEEDS):
+def over_seeds(name, scene, settings=None, seeds=SEEDS, program="", modulus=""):
     """The same scene once with each seed, named NAME_SEED."""
-    return [Simulation(f"{name}_{seed}", scene, settings or {}, seed) for seed in seeds]
+    return [Simulation(f"{name}_{seed}", scene, settings or {}, seed, program, modulus) for seed in seeds]

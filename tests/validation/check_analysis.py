@@ -8,6 +8,7 @@ Exit codes: 0 all is found, 1 it is not.
 """
 import math
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
@@ -16,8 +17,9 @@ import numpy
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).resolve().parents[2] / "postprocess")]
 from case import Row  # noqa: E402  found by the line above
-from cases import (beverloo, column_collapse, drum, force_distribution, granular_gas, incline,  # noqa: E402
-                   janssen, packings, plane_shear)
+from cases import (beverloo, chung_ooi, column_collapse, crater, drum, force_distribution, granular_gas,  # noqa: E402
+                   incline, janssen, packings, plane_shear, same_scene, segregation)
+from deck import DeckRun  # noqa: E402
 from page import with_error  # noqa: E402
 
 
@@ -112,6 +114,57 @@ class Analysis(unittest.TestCase):
         collapses = [column_collapse.Collapse(a, 1.6 * a**0.5, a, 1, 3, 0) for a in (2, 4, 8)]
         self.assertAlmostEqual(column_collapse.power(collapses, "run_out"), 0.5, places=9)
         self.assertAlmostEqual(column_collapse.prefactor(collapses, "run_out", 0.5), 1.6, places=9)
+
+    def test_rigid_impact(self):
+        # By hand: 3.9 m/s at 35°, e = 0.98, μ = 0.092: v_n = 3.1947, v_t = 2.2369, J_t/m = 0.58195.
+        restitution, spin, angle = chung_ooi.rigid_4(35)
+        self.assertAlmostEqual(restitution, 0.73984, places=4)
+        self.assertAlmostEqual(spin, 581.95, places=1)
+        self.assertAlmostEqual(angle, numpy.degrees(numpy.arctan(0.20008 / 3.13081)), places=2)
+        restitution, _, angle = chung_ooi.rigid_4(10)  # sticks
+        self.assertAlmostEqual(restitution, 5 / 7, places=12)
+        self.assertEqual(angle, 0)
+
+    def test_line_of_tops(self):
+        random = numpy.random.default_rng(1)
+        along, across = random.uniform(0, 1, 20000), random.integers(0, 5, 20000)
+        below = random.uniform(0, 1, 20000)  # of each place, tops from the floor up to a slope of 20°
+        tops = (1 - along * numpy.tan(numpy.radians(20))) * below
+        angle = same_scene.line_of_tops(along, across, tops, numpy.linspace(0, 1, 21), 5)
+        self.assertAlmostEqual(angle, -20, delta=0.5)
+
+    def test_crater(self):
+        values = numpy.array([1.0, 2, 5])
+        self.assertAlmostEqual(crater.power(values, (3 * values**0.4)[:, None])[0], 0.4, places=9)
+        # By hand: 0.14/0.40403 · √(6000/1500) · 0.04^{2/3} · 0.216^{1/3}
+        self.assertAlmostEqual(crater.uehara((0.15, 6000, 0.04), 0.216), 0.048632, places=5)
+
+    def test_rise(self):
+        time = numpy.arange(0, 8, 0.5)
+        self.assertEqual(segregation.rise_time(time, numpy.where(time < 4, 0.3, 0.9)), 4 - segregation.SHAKEN)
+        self.assertEqual(segregation.rise_time(time, numpy.full(16, 0.3)), numpy.inf)
+        # A large sphere rises 10 mm/s among beads that rise 5 mm/s at the axis and stand elsewhere, in a bed 0.1 m high.
+        beads = numpy.array([(x, 0.0, z) for x in (0.0, 0.02) for z in numpy.linspace(0, 0.1, 401)])
+        positions = numpy.array([[(0, 0, 0.005 + 0.01 * t), *(beads + (beads[:, :1] == 0) * [0, 0, 0.005 * t])]
+                                 for t in time])
+        ball, around = segregation.speeds(time, positions)
+        self.assertAlmostEqual(ball, 0.01, places=9)
+        self.assertAlmostEqual(around, 0.005, places=9)
+
+
+class Deck(unittest.TestCase):
+    def test_frames_of_a_dump(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "log.lammps").write_text("timestep ${step}\ntimestep 0.0001\n")
+            (folder / "frames.lammpstrj").write_text("".join(
+                f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n"
+                f"ITEM: ATOMS id type radius x y z\n1 1 0.005 0.1 0.2 {step}\n2 1 0.004 0.3 0.4 0.5\n"
+                for step in (0, 50)))
+            first, last = DeckRun(folder).spheres()
+        self.assertEqual((first.time, last.time), (0.0, 0.005))
+        self.assertEqual(last.positions.tolist(), [[0.1, 0.2, 50], [0.3, 0.4, 0.5]])
+        self.assertEqual(last.radii.tolist(), [0.005, 0.004])
 
 
 class Page(unittest.TestCase):

@@ -2,6 +2,7 @@
 """Writes tests/results/validation.md from what was found in the cases."""
 import importlib
 import math
+import statistics
 from pathlib import Path
 
 PAGE = Path(__file__).resolve().parents[1] / "results/validation.md"
@@ -17,10 +18,11 @@ HEAD = """# Beside theory and experiment
 
 Bulk behaviour that others have measured, computed or derived, and what Talus has for it. `tests/run validation`
 makes the runs and writes this page; the docstring of each case, in `tests/validation/cases/`, says more of its law,
-parameters and sources, and why its tolerance is what it is. Values are the mean over {seeds} seeds ± its standard
-error, and are within their tolerance where the mean is; tolerances were written down before the runs, but where the
-docstring says other. References "from memory" were not read again: their tolerances are wide for that. Seconds are
-those of the processor, of all runs of a case; cases may share runs.
+parameters and sources, and why its tolerance is what it is. Values are the mean over {seeds} seeds, or as many as are
+told, ± its standard error, and are within their tolerance where the mean is; one without an error is of one run, where
+chance has no part. Tolerances were written down before the runs, but where the docstring says other. References "from
+memory" were not read again: their tolerances are wide for that. Seconds are those of the processor, of all runs of a
+case; cases may share runs.
 
 {verdict}
 
@@ -49,13 +51,19 @@ def verdict_of(cases):
             f"{len(outside)} are **outside**.")
 
 
-def section(name, case, module):
+def value_of(row, usual):
+    """The mean and its error, with the number of seeds where it is another than usual."""
+    count = len(row["values"])
+    return with_error(row["mean"], row["standard_error"]) + ("" if count in (1, usual) else f" ({count} seeds)")
+
+
+def section(name, case, module, seeds):
     title = f"{module.TITLE[0].upper()}{module.TITLE[1:]}"
     lines = [f"## {title}", "", "| quantity | reference (source) | tolerance | Talus | |",
              "| --- | --- | --- | --- | --- |"]
     for row in case["rows"]:
         lines.append(f"| {row['what']} | {row['reference']} | {row['tolerance']} "
-                     f"| {with_error(row['mean'], row['standard_error'])} "
+                     f"| {value_of(row, seeds)} "
                      f"| {'within' if row['within'] else '**outside**'} |")
     lines += ["", f"![{title}](validation/{name}.png)", ""]
     if module.FINDINGS:
@@ -70,8 +78,9 @@ def write_page(cases):
     modules = {name: importlib.import_module(f"cases.{name}") for name in cases}
     in_order = sorted(cases, key=lambda name: ALL.index(modules[name].TITLE))
     there = {module.TITLE for module in modules.values()}
-    seeds = min(len(row["values"]) for case in cases.values() for row in case["rows"])
+    seeds = statistics.mode(len(row["values"]) for case in cases.values() for row in case["rows"]
+                            if len(row["values"]) > 1)
     head = HEAD.format(seeds={3: "three"}.get(seeds, seeds), verdict=verdict_of(cases),
                        missing="; ".join(title for title in ALL if title not in there))
-    sections = (section(name, cases[name], modules[name]) for name in in_order)
+    sections = (section(name, cases[name], modules[name], seeds) for name in in_order)
     PAGE.write_text("\n".join([head, *sections]), encoding="utf-8")

@@ -7,7 +7,8 @@
 
 A case is a file of cases/. Runs go to build/validation, two at a time on one thread each; cases may share them. A run
 that is there, of the same scene with the same program, is not made again, so that what was broken off goes on where it
-was. Cases that are not asked for keep what tests/results/validation.json has of them.
+was. Cases that are not asked for, or that want LAMMPS or LIGGGHTS where these are not installed
+(tests/benchmarks/peers/install), keep what tests/results/validation.json has of them.
 
 Exit codes: 0 done, whatever the verdicts; 1 a run failed; 2 the call is wrong.
 """
@@ -27,6 +28,7 @@ import matplotlib
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(Path(__file__).parent), str(ROOT / "postprocess")]
 from case import scene_file  # noqa: E402  found by the line above
+from deck import DeckRun, program_of, run_deck  # noqa: E402
 from page import write_page  # noqa: E402
 from read_run import Run  # noqa: E402
 
@@ -34,7 +36,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  after the choice of a backend without a screen
 
 CASES = ("granular_gas", "packings", "force_distribution", "janssen", "beverloo", "discharge", "drum", "incline",
-         "plane_shear", "column_collapse")
+         "plane_shear", "column_collapse", "chung_ooi", "same_scene", "crater", "segregation", "round_robin")
 STORE = ROOT / "tests/results/validation.json"
 
 
@@ -51,6 +53,16 @@ def checksum_of(talus, run):
     return digest.hexdigest()
 
 
+def call(talus, verb, run, folder, *others):
+    """Raises RunFailed."""
+    settings = [word for key, value in run.settings.items() for word in ("--set", f"{key}={value}")]
+    command = [talus, verb, scene_file(run.scene), "--seed", run.seed, *settings, *others, "--force", "--quiet", "-o",
+               folder]
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+    if done.returncode:
+        raise RunFailed(f"{' '.join(map(str, command))} ended with {done.returncode}: {done.stderr[-500:]}")
+
+
 def make(talus, run):
     """Makes a run, if it is not there, and reads it.
 
@@ -60,15 +72,16 @@ def make(talus, run):
     mark, checksum = folder.with_name(f"{run.name}.made_of"), checksum_of(talus, run)
     if not (mark.is_file() and mark.read_text() == checksum):
         folder.parent.mkdir(parents=True, exist_ok=True)
-        settings = [word for key, value in run.settings.items() for word in ("--set", f"{key}={value}")]
-        command = [talus, "run", scene_file(run.scene), "--seed", run.seed, *settings, "--threads", 1, "--force",
-                   "--quiet", "-o", folder]
-        done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-        if done.returncode:
-            raise RunFailed(f"{' '.join(map(str, command))} ended with {done.returncode}: {done.stderr[-500:]}")
+        if run.program:
+            call(talus, "export", run, folder, "--format", run.program)
+            code = run_deck(run.program, folder, run.modulus)
+            if code:
+                raise RunFailed(f"{run.program} ended with {code} in {folder}, see said.txt there.")
+        else:
+            call(talus, "run", run, folder, "--threads", 1)
         mark.write_text(checksum)
         print(f"{run.name} made", flush=True)
-    return Run(folder)
+    return DeckRun(folder) if run.program else Run(folder)
 
 
 def judge(name, case, runs):
@@ -102,6 +115,11 @@ def main():
     if not names:
         parser.error(f"no case has {' or '.join(arguments.words)} in its name; there are {', '.join(CASES)}")
     cases = {name: importlib.import_module(f"cases.{name}") for name in names}
+    for name, case in list(cases.items()):
+        missing = {run.program for run in case.RUNS if run.program and not program_of(run.program)}
+        if missing:
+            print(f"{name}: skipped, there is no {' and no '.join(sorted(missing))} here")
+            del cases[name]
     os.environ["GOMP_SPINCOUNT"] = "2000"  # idle threads leave the processor to others
     talus = arguments.talus.resolve()
     failures = []

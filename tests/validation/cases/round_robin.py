@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""15. The round robin of Dosta et al.: the penetration test.
+
+Dosta et al. 2024 (Comput. Phys. Commun. 296, 109066) ran a silo, a drum and a penetration test in eight open codes. What
+can be had of it without their files: the scripts of Yade (examples/DEM2020Benchmark) and MercuryDPM (OSPenetration.cpp)
+have all materials, and the whole of the penetration test but the places of its beads. Walls of silo and drum, and the
+beads' places, are files of their servers and of Zenodo (8252892), as are the curves of the eight codes (also in
+github.com/weinhart/dem_benchmark_plots, as spreadsheets); none could be had here. So silo and drum are left out, and the
+penetration test is compared with LIGGGHTS, one of the eight, which begins with the same beads as Talus.
+
+Parameters: 25 000 beads of 2 mm (M1: 2500 kg/m³, friction 0.3, restitution 0.5; at steel 0.2 and 0.4) in a steel box of
+0.1 m × 0.06 m; a steel ball of 20 mm (7200 kg/m³) starts 0.15 m above the floor at 5 m/s downwards; 0.1 s. The bed is
+made at random, and comes to rest while the ball flies. LIGGGHTS has E = 5e7 Pa in place of 1e9, and one seed, for its
+time.
+
+Tolerances, fixed before LIGGGHTS ran, but after a run of Talus had shown that the ball goes through the bed and comes
+back from a bead over the floor: least height over the floor ± 2 mm, a bead; speed in the end ± 20 %; mean
+difference of height from when it enters the bed on up to 4 mm.
+"""
+import numpy
+
+from case import Row, over_seeds
+from deck import spheres_of
+from page import number
+
+TITLE = "the round robin of Dosta et al. 2024"
+FINDINGS = ""
+RADIUS, FLOOR, START = 0.01, -0.090243, 0.06  # of the ball, m
+OURS = over_seeds("penetration", "penetration")
+THEIRS = over_seeds("penetration_liggghts", "penetration", seeds=(1,), program="liggghts", modulus="5e7")
+RUNS = [*OURS, *THEIRS]
+
+
+def track(run):
+    """Times [s], heights [m] of the ball's lowest point over the floor, and that of the bed before the impact."""
+    frames = spheres_of(run)
+    time = numpy.array([spheres.time for spheres in frames])
+    low = numpy.array([spheres.positions[0, 2] for spheres in frames]) - RADIUS - FLOOR
+    before = frames[numpy.searchsorted(time, 0.0181) - 1]
+    x, y, z = before.positions[1:].T
+    cell = numpy.floor(x / 0.004) * 1000 + numpy.floor(y / 0.004)
+    tops = z + before.radii[1:] - FLOOR
+    return time, low, float(numpy.mean([tops[cell == one].max() for one in numpy.unique(cell)]))
+
+
+def judge(runs):
+    ours, theirs = ([track(runs[run.name]) for run in simulations] for simulations in (OURS, THEIRS))
+    for what, quantity, margin, tolerance in (
+            ("least height over the floor [mm]", lambda time, low: 1000 * low.min(), lambda mean: 2.0, "± 2"),
+            ("speed in the end [m/s]", lambda time, low: (low[-1] - low[-6]) / (time[-1] - time[-6]),
+             lambda mean: 0.2 * abs(mean), "± 20 %")):
+        mean = float(numpy.mean([quantity(time, low) for time, low, _ in theirs]))
+        yield Row(f"penetration: {what}", f"{number(mean)} (LIGGGHTS)", tolerance, mean - margin(mean),
+                  mean + margin(mean), tuple(float(quantity(time, low)) for time, low, _ in ours))
+    times = numpy.linspace(0.022, 0.1, 79)
+    mean = numpy.mean([numpy.interp(times, time, low) for time, low, _ in theirs], axis=0)
+    yield Row("penetration: mean difference of the ball's height [mm]", "0 (LIGGGHTS)", "4", 0, 4, tuple(
+        1000 * float(numpy.mean(abs(numpy.interp(times, time, low) - mean))) for time, low, _ in ours))
+
+
+def draw(figure, runs):
+    axes = figure.subplots()
+    for simulations, style, label in ((OURS, "C3", "Talus"), (THEIRS, "k--", "LIGGGHTS")):
+        for n, run in enumerate(simulations):
+            time, low, surface = track(runs[run.name])
+            axes.plot(time, 1000 * low, style, linewidth=1, label=label if n == 0 else None)
+            axes.axhline(1000 * surface, color="0.8", linewidth=0.5, zorder=0)
+    axes.set(xlabel="time [s]", ylabel="lowest point of the ball over the floor [mm]", xlim=(0, 0.1), ylim=(0, None))
+    axes.legend()
