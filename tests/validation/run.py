@@ -33,7 +33,8 @@ from read_run import Run  # noqa: E402
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  after the choice of a backend without a screen
 
-CASES = ("granular_gas", "packings", "force_distribution", "janssen", "beverloo", "discharge")
+CASES = ("granular_gas", "packings", "force_distribution", "janssen", "beverloo", "discharge", "conical_hopper",
+         "clogging", "repose")
 STORE = ROOT / "tests/results/validation.json"
 
 
