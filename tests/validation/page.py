@@ -17,7 +17,7 @@ HEAD = """# Beside theory and experiment
 
 Bulk behaviour that others have measured, computed or derived, and what Talus has for it. `tests/run validation`
 makes the runs and writes this page; the docstring of each case, in `tests/validation/cases/`, says more of its law,
-parameters and sources, and why its tolerance is what it is. Values are the mean over {seeds} seeds ± its standard
+parameters and sources, and why its tolerance is what it is. Values are the mean over {seeds} seeds or more ± its standard
 error, and are within their tolerance where the mean is; tolerances were written down before the runs, but where the
 docstring says other. References "from memory" were not read again: their tolerances are wide for that. Seconds are
 those of the processor, of all runs of a case; cases may share runs.

@@ -7,9 +7,10 @@ left in a box that drains, as θ = 68.61° μ_pp^0.27 μ_pw^0.22 r_pp^0.06 r_pw^
 ratio of steady shear, atan η_s (Chialvo, Sun & Sundaresan 2012, Phys. Rev. E 85, 021305; the values from memory), or a
 little steeper, and more sliding friction does not help.
 
-Parameters: a ledge of 24 d, periodic sideways, covered with fixed beads (scenes/ledge.toml); beads ± 5 % behind a gate
-22 d high, which is lowered in 1.2 s; 0.8 s later a line through the middle 60 % of the surface. Rolling friction is
-torque / (normal force · R*), so r_pp = r_pw = d/4 of it, the bottom being of beads.
+Parameters: a ledge of 20 d, periodic sideways, covered with fixed beads (scenes/ledge.toml); beads ± 5 % stand 15 d
+high behind a gate, which is lowered in 0.6 s; 1.6 s later a line is laid through the middle 60 % of the surface. Rolling
+friction is torque / (normal force · R*), so r_pp = r_pw = d/4 of it, the bottom being of beads. (A first scene was
+larger; a look at two of its runs showed them still flowing at their end.)
 
 Tolerances, fixed before the runs:
 - without rolling friction: from 2° below atan η_s to 4° above, since a heap begins to move when steeper than it flows.
