@@ -24,7 +24,13 @@ import numpy
 from case import SEEDS, Row, over_seeds
 
 TITLE = "angle of repose"
-FINDINGS = ""
+FINDINGS = """The least rise is that from rolling friction 0.1 to 0.2 where sliding friction is 0.1: none within its
+error. There rolling resistance takes as much torque as friction at the rim can give, 0.2 R* = 0.1 r, and a bead
+slides before it rolls; in all other rows every step is a rise. The law of Zhou et al. is met where sliding friction
+is 1. Below that heaps are steeper, most at 0.3: angles here saturate with sliding friction from 0.3 on, as shear
+strength does, and the law goes on as its power 0.49. With 0.5 and rolling friction 0.1 it says 24°; heaps through a
+funnel (tests/RESULTS.md) have 29.1° in Talus, 28.3° in LIGGGHTS and 26.8° in LAMMPS, so it is the law, or the memory
+of it, that does not fit such beads; a smooth plate, as theirs, was not tried."""
 SLIDING, ROLLING = (0.1, 0.3, 0.5, 1.0), (0.0, 0.05, 0.1, 0.2)
 SHEARED = {0.1: 15.0, 0.3: 19.6, 0.5: 20.9, 1.0: 22.0}  # atan η_s, °, by sliding friction
 DIAMETER_MM = 10.0
