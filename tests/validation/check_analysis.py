@@ -17,8 +17,9 @@ import numpy
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).resolve().parents[2] / "postprocess")]
 from case import Row  # noqa: E402  found by the line above
-from cases import (beverloo, chung_ooi, column_collapse, crater, drum, force_distribution, granular_gas,  # noqa: E402
-                   incline, janssen, packings, plane_shear, same_scene, segregation)
+from cases import (beverloo, chung_ooi, clogging, column_collapse, conical_hopper, crater, drum,  # noqa: E402
+                   force_distribution, granular_gas, incline, janssen, packings, plane_shear, repose, same_scene,
+                   segregation)
 from deck import DeckRun  # noqa: E402
 from page import with_error  # noqa: E402
 
@@ -63,6 +64,33 @@ class Analysis(unittest.TestCase):
         self.assertAlmostEqual(exponent, 2.5, delta=1e-6)
         exponent, _, _ = beverloo.fit(sizes, 0.4 * (sizes - 1.4) ** 2.7, k=1.4)
         self.assertAlmostEqual(exponent, 2.7, delta=1e-6)
+
+    def test_conical_hopper(self):
+        # Brown's are those of the books, Rose & Tanaka's is by hand.
+        for angle, ratio in ((15, 1.49), (30, 1.10), (45, 0.96), (60, 0.93), (90, 1.0)):
+            self.assertAlmostEqual(float(conical_hopper.brown(angle)), ratio, delta=0.006)
+        self.assertAlmostEqual(float(conical_hopper.rose_tanaka(15, 55)), 1.40, delta=0.006)
+        self.assertEqual(float(conical_hopper.rose_tanaka(60, 55)), 1.0)
+
+    def test_mean_until_clog(self):
+        # All beads over the number of clogs, some runs having ended before: exponential with mean 300, cut at 400.
+        class Run:
+            def __init__(self, beads):
+                self.beads = min(beads, 400)
+                self.last = self.beads if beads < 400 else 399
+
+            def metrics(self):
+                return {"time_s": numpy.array([0.0, 8.0, 10.0]),
+                        "outlet_passed_count": numpy.array([0, self.last, self.beads])}
+
+        simulations = clogging.silo(3, 1, 1, 4000)
+        beads = numpy.random.default_rng(1).exponential(300, len(simulations)).astype(int)
+        runs = {run.name: Run(count) for run, count in zip(simulations, beads)}
+        self.assertAlmostEqual(clogging.until_clog(runs, simulations).mean(), 300, delta=15)
+
+    def test_least_place(self):
+        values = numpy.array([[[5, 6], [1, 4]], [[9, 8], [2, 1.0]]])  # by two places and seed
+        self.assertEqual(repose.least(values), (2, 1))
 
     def test_fraction_of_coordination(self):
         self.assertAlmostEqual(packings.fraction_of(6), 0.634, places=3)

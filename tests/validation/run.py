@@ -35,8 +35,9 @@ from read_run import Run  # noqa: E402
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  after the choice of a backend without a screen
 
-CASES = ("granular_gas", "packings", "force_distribution", "janssen", "beverloo", "discharge", "drum", "incline",
-         "plane_shear", "column_collapse", "chung_ooi", "same_scene", "crater", "segregation", "round_robin")
+CASES = ("beverloo", "discharge", "conical_hopper", "clogging", "janssen", "repose", "column_collapse", "drum", "incline",
+         "plane_shear", "packings", "force_distribution", "granular_gas", "crater", "chung_ooi", "segregation",
+         "round_robin", "same_scene")
 STORE = ROOT / "tests/results/validation.json"
 
 

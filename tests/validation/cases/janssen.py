@@ -3,15 +3,21 @@
 
 Law: of a mass M in a tube of diameter D the floor carries M_s (1 − exp(−M/M_s)), M_s = ρ_b π D² λ/4, λ = D/(4 μ_w K)
 (Janssen 1895; translated by Sperl 2006, Granular Matter 8, 59), where friction is mobilised everywhere at the wall, as
-by a floor that is lowered slowly (Vanel & Clément 1999, Eur. Phys. J. B 11, 525). A load Q on top adds Q exp(−M/M_s) by
-that law; measured is more, an overshoot (Ovarlez, Fond & Clément 2003, Phys. Rev. E 67, 060302).
+by a floor that is lowered slowly (Vanel & Clément 1999, Eur. Phys. J. B 11, 525). A load Q on top of a column whose
+walls are mobilised adds Q exp(−M/M_s) by that law; measured is more, an overshoot (Ovarlez, Fond & Clément 2003, Phys.
+Rev. E 67, 060302).
 
-Parameters: D = 15 d, μ_w = 0.4, friction between beads 0.5, fills of 3000 beads for each diameter of height, 1 to 4 of
-them; the floor is lowered by 0.8 d at 1 d/s, and its load averaged over the last 0.3 d.
+Parameters: D = 15 d, μ_w = 0.4, friction between beads 0.5, fills of 3000 beads for each diameter of height, 1 to 6 of
+them; the floor is lowered by 0.8 d at 1 d/s, and its load averaged over the last 0.3 d. The lid lies on the beads with
+a twenty-fifth of its weight until the floor has gone down 0.4 d, and with all of it after another 0.1 d.
+
+Two things were set right after a first set of runs. The highest fill was 4 D and was compared with 3 D, which is less
+than 3 M_s: there the law itself rises by 4 % from one to the other; 6 D and 4 D differ by 2 %. And the lid had all its
+weight from the start, before the walls were mobilised.
 
 Tolerances, fixed before the runs:
-- the largest deviation of the four loads from the law with one parameter fitted: 0.05 M_s, as experiments scatter.
-- load under four diameters / under three: 1 ± 0.05.
+- the largest deviation of the loads from the law with one parameter fitted: 0.05 M_s, as experiments scatter.
+- load under the highest fill / under the one before: 1 ± 0.05.
 - K, by λ and the bulk density: from 0.47, Rankine's for 21°, to 1.1; experiments have up to about 1 (from memory).
 - without friction at the wall the floor carries all: 1 ± 0.001, the error of the solver.
 - the overload, over what Janssen's law gives: from 1.0 to 1.4; the overshoot of 10 to 20 % was quoted from memory.
@@ -23,12 +29,16 @@ import numpy
 from case import Row, over_seeds
 
 TITLE = "Janssen's silo"
-FINDINGS = """Three diameters came to less than 3 M_s, where the law itself still rises by nearly the tolerance: the
-fills were chosen too low for that comparison. The overload does not overshoot, nor does it where the floor has gone
-down by some hundredths of a diameter only, as the metrics of these runs tell: the load is a little less than Janssen's
-law adds, which is not explained yet. All loads still fall slowly while the floor goes down."""
+FINDINGS = """Whether a load overshoots depends on when it comes. In runs of one fill of 1 D whose floor went down by
+three diameters (one seed), with a lid that had its weight from the start, as in the first set of runs, the floor
+carried 1.11 times what Janssen's law gives with the M_s of that fill while it went down the first tenth of a
+diameter, when the fill alone carried 1.14 times its later load too, and 0.98 afterwards. With a lid that got its
+weight when the floor had gone down one diameter it carried 1.06 times as much for half a diameter, and 1.015
+afterwards: an overshoot that decays, of mobilised walls only, and smaller than the 10 to 20 % of Ovarlez et al.
+Contacts here do not give way along the wall, as elastic ones do; whether that is why was not tried. Cambau, Hure &
+Marthelot 2013 (arXiv 1308.5833) find Janssen's description confirmed with a mass on top."""
 BEADS = 3000  # for each diameter of height
-HEIGHTS = (1, 2, 3, 4)  # of fills, in diameters
+HEIGHTS = (1, 2, 4, 6)  # of fills, in diameters
 OVERLOADED = (1, 2)
 LID, DIAMETER, WALL_FRICTION, DENSITY, GRAVITY = 3.5, 0.15, 0.4, 2500.0, 9.81  # as in scenes/mobilised_silo.toml
 
@@ -41,7 +51,8 @@ def overloaded(height):
     # The lid lies on the lattice of the beads at the start, 0.25 m for each diameter of height.
     return over_seeds(f"silo_overloaded_{height}D", "mobilised_silo",
                       {"fill.0.count": BEADS * height, "wall.lid.released_at": 0,
-                       "wall.lid.center": f"[0, 0, {0.03 + 0.25 * height}]"})
+                       "wall.lid.center": f"[0, 0, {0.03 + 0.25 * height}]",
+                       "wall.lid.load": "[[0.9, -33], [1.0, 0]]"})
 
 
 SMOOTH = over_seeds("silo_smooth", "mobilised_silo", {"fill.0.count": 2 * BEADS, "contact.1.friction": 0})
@@ -85,8 +96,8 @@ def judge(runs):
     found = list(silos(runs))
     yield Row("largest deviation from the law / M_s", "0 (Janssen 1895)", "up to 0.05", 0.0, 0.05,
               tuple(max(abs(carried(m, s) - l)) / s for m, l, s, _ in found))
-    yield Row("load of the floor under 4 D / under 3 D", "1 (Janssen 1895)", "± 5 %", 0.95, 1.05,
-              tuple(loads[3] / loads[2] for _, loads, _, _ in found))
+    yield Row("load of the floor under 6 D / under 4 D", "1 (Janssen 1895)", "± 5 %", 0.95, 1.05,
+              tuple(loads[-1] / loads[-2] for _, loads, _, _ in found))
     yield Row("K", "0.47 (Rankine, 21°) to about 1 (from memory)", "0.47 to 1.1", 0.47, 1.1,
               tuple(k for *_, k in found))
     smooth = [measure(runs[run.name]) for run in SMOOTH]
