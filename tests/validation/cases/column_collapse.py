@@ -32,7 +32,7 @@ from case import Row, over_seeds
 TITLE = "column collapse"
 FINDINGS = """The run-out of glass beads in a slot is linear up to a = 3, so that between 2 and 4 the exponent is not 2/3 yet:
 the columns chosen are too few, and too low, to tell it. Low columns run out less than the law, high ones agree: at a = 0.5
-a column is eight beads high and its run-out ten beads long, and round ones lack the last fifth too. That this is their
+a column is eight beads high and its run-out ten beads long, and round ones lack a fifth too. That this is their
 few beads was not tried with larger ones. Round ones are lower in the middle than others found: the two smooth walls meet
 there, and the middle stands lower before the collapse too. They stop sooner than Lube's, whose duration was quoted from
 memory. What moves at the end are single beads that roll down the flanks; the energy falls by a factor of about three each
@@ -177,6 +177,6 @@ def draw(figure, runs):
     left.plot([], [], "C0", linewidth=1, label="slot, glass beads, Lajeunesse et al. 2005")
     right.plot(both, 0.88 * both ** (1 / 6), "C3", linewidth=1, label="round, high, Lube et al. 2004")
     right.plot(both, both, "k:", linewidth=1, label="as it stood")
-    for axes, label in ((left, "run-out / l"), (right, "height / l")):
-        axes.set(xscale="log", yscale="log", xlabel="aspect ratio", ylabel=label)
-        axes.legend(fontsize="x-small", loc="lower right")
+    for axes, label, limits in ((left, "run-out / l", (0.3, 30)), (right, "height / l", (0.3, 12))):
+        axes.set(xscale="log", yscale="log", xlabel="aspect ratio", ylabel=label, ylim=limits)
+        axes.legend(fontsize="x-small", loc="upper left")
