@@ -20,9 +20,8 @@ al. 2014, Granular Matter 16, 115), hence the prefactors only ± 20 %.
 Tolerances, fixed before the runs: prefactors ± 20 %, of the slot those of glass beads; exponents ± 0.07; durations, mean
 of all that are higher than a = 1.5, ± 15 %; of the lowest the height of the middle 0.9 to 1.05 of that before, which was
 the mean height of the column at first, but the middle of a round one stands lower; kinetic energy 6 √(h/g) after the
-release, a up to 2, up to 1e-4 M g h. a = 8 in the slot, 4 round, and the exponent of the round run-out with it, were
-taken out
-for time after low columns of one seed had been seen, and l = 20 d was made 16 d; no tolerance was touched.
+release, a up to 2, up to 1e-4 M g h. For want of time a = 8 in the slot, 4 round, and the exponent of the round run-out
+with it, were taken out after low columns of one seed had been seen, and l = 20 d was made 16 d; no tolerance was touched.
 """
 import math
 from typing import NamedTuple
