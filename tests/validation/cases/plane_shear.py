@@ -15,7 +15,7 @@ through I = 0.01 and 0.04; without friction it is one in I^0.38 (Peyneau & Roux,
 
 Tolerances, fixed before the runs: η ± 0.02 and φ_c ± 0.015, since Chialvo's table was quoted from memory and is of beads
 of one size; μ(I) of glass beads ± 0.04; slope of φ(I) from −0.4 to −0.1. Incline of 24° less plane shear:
-μ ± 0.02, φ ± 0.01.
+μ ± 0.02, φ ± 0.01. The slow rates were chosen anew, for time, after one seed had been seen; no tolerance was touched.
 """
 import math
 from typing import NamedTuple
