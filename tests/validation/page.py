@@ -5,14 +5,9 @@ import math
 import statistics
 from pathlib import Path
 
-PAGE = Path(__file__).resolve().parents[1] / "results/validation.md"
+from cases import CASES
 
-# What the page is to hold, in its order, with the cases that are not there yet.
-ALL = ("Beverloo's law", "fill height, sizes and friction in Beverloo's silo", "conical hopper", "clogging",
-       "Janssen's silo", "angle of repose", "column collapse", "rotating drum",
-       "rough incline", "plane shear", "packings", "force distribution", "granular gas", "impact crater",
-       "Chung & Ooi's tests", "segregation", "the round robin of Dosta et al. 2024",
-       "the same hopper, pile and drum in LIGGGHTS and LAMMPS")
+PAGE = Path(__file__).resolve().parents[1] / "results/validation.md"
 
 HEAD = """# Beside theory and experiment
 
@@ -24,9 +19,7 @@ chance has no part. Tolerances were written down before the runs, but where the 
 memory" were not read again: their tolerances are wide for that. Seconds are those of the processor, of all runs of a
 case; cases may share runs.
 
-{verdict}
-
-Not yet here: {missing}.
+{verdict}{missing}
 """
 
 
@@ -75,12 +68,11 @@ def section(name, case, module, seeds):
 
 def write_page(cases):
     """From rows, seconds and the like of each case by the name of its file, as run.py keeps them."""
-    modules = {name: importlib.import_module(f"cases.{name}") for name in cases}
-    in_order = sorted(cases, key=lambda name: ALL.index(modules[name].TITLE))
-    there = {module.TITLE for module in modules.values()}
+    modules = {name: importlib.import_module(f"cases.{name}") for name in CASES}
     seeds = statistics.mode(len(row["values"]) for case in cases.values() for row in case["rows"]
                             if len(row["values"]) > 1)
+    missing = [modules[name].TITLE for name in CASES if name not in cases]
     head = HEAD.format(seeds={3: "three"}.get(seeds, seeds), verdict=verdict_of(cases),
-                       missing="; ".join(title for title in ALL if title not in there))
-    sections = (section(name, cases[name], modules[name], seeds) for name in in_order)
+                       missing=f"\n\nNot yet here: {'; '.join(missing)}." if missing else "")
+    sections = (section(name, cases[name], modules[name], seeds) for name in CASES if name in cases)
     PAGE.write_text("\n".join([head, *sections]), encoding="utf-8")

@@ -28,6 +28,7 @@ import matplotlib
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(Path(__file__).parent), str(ROOT / "postprocess")]
 from case import scene_file  # noqa: E402  found by the line above
+from cases import CASES  # noqa: E402
 from deck import DeckRun, program_of, run_deck  # noqa: E402
 from page import write_page  # noqa: E402
 from read_run import Run  # noqa: E402
@@ -35,9 +36,6 @@ from read_run import Run  # noqa: E402
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  after the choice of a backend without a screen
 
-CASES = ("beverloo", "discharge", "conical_hopper", "clogging", "janssen", "repose", "column_collapse", "drum", "incline",
-         "plane_shear", "packings", "force_distribution", "granular_gas", "crater", "chung_ooi", "segregation",
-         "round_robin", "same_scene")
 STORE = ROOT / "tests/results/validation.json"
 
 
