@@ -26,8 +26,8 @@ public:
         for (const auto& sphere : spheres_) smallest_ = std::min(smallest_, sphere.radius);
     }
 
-    /// Moves every overlapping pair apart and every sphere into the room, one after the other. Returns whether nothing
-    /// was left to do.
+    /// Moves every overlapping pair apart and every sphere into the room, one after the other. Returns whether each was
+    /// clear when its turn came.
     bool sweep()
     {
         if (moved() > 0.5 * skin * smallest_) list_pairs();
@@ -131,7 +131,12 @@ std::vector<PackedSphere> dense_packing(const PackingRoom& room, const Mixture& 
         spheres.push_back({*center, radius, grain.material});
     }
     Crowd crowd(room, std::move(spheres), others);
-    for (int k = 0; k < most_sweeps && !crowd.sweep(); ++k) {}
+    // The last pushes of a sweep may have closed what it had opened before.
+    for (int k = 0; k < most_sweeps; ++k) {
+        if (!crowd.sweep()) continue;
+        auto clear = crowd.clear_ones();
+        if (static_cast<std::int64_t>(clear.size()) == count) return clear;
+    }
     return crowd.clear_ones();
 }
 

@@ -3,6 +3,7 @@
 import os
 import re
 import shutil
+import subprocess
 from pathlib import Path
 from typing import NamedTuple
 
@@ -28,15 +29,13 @@ def program_of(format):
 
 def run_deck(format, folder, modulus):
     """Runs the deck in its folder, on one thread; keeps its CPU seconds there. Returns its exit code."""
-    change = f" -var modulus {modulus}" if modulus else ""
-    with (folder / "said.txt").open("w") as said:
-        actions = [(os.POSIX_SPAWN_DUP2, said.fileno(), stream) for stream in (1, 2)]
-        script = f"cd '{folder}' && exec '{program_of(format)}' -in in.{format}{change}"
-        child = os.posix_spawn("/bin/sh", ["sh", "-c", script], dict(os.environ, OMP_NUM_THREADS="1"),
-                               file_actions=actions)
-        _, status, usage = os.wait4(child, 0)
+    command = [program_of(format), "-in", f"in.{format}", *(["-var", "modulus", modulus] if modulus else [])]
+    with (folder / "said.txt").open("w") as said, subprocess.Popen(
+            command, cwd=folder, stdout=said, stderr=subprocess.STDOUT, env=dict(os.environ, OMP_NUM_THREADS="1")) as child:
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
     (folder / "cpu_s").write_text(str(usage.ru_utime + usage.ru_stime))
-    return os.waitstatus_to_exitcode(status)
+    return child.returncode
 
 
 class DeckRun:
