@@ -15,7 +15,7 @@ import talus
 from small_scene import box_of_beads
 
 TALUS = os.environ["TALUS"]
-CLOCK_BYTES = 10 * 2 * 8  # the end of a checkpoint: times of the phases
+CLOCK_BYTES = 11 * 2 * 8  # the end of a checkpoint: times of the phases
 
 
 def state_in(checkpoint):
