@@ -72,7 +72,7 @@ TEST_CASE("the summary has the keys that scripts rely on", "[app][run]")
     CHECK(summary["time"]["simulated"] == Approx(counted));
     CHECK(summary["error"]["residual"]["mean"] <= summary["error"]["residual"]["worst"]);
     CHECK(summary["error"]["overlap_d"]["mean"] <= summary["error"]["overlap_d"]["worst"]);
-    CHECK(summary["timing"]["phases"].size() == 10);
+    CHECK(summary["timing"]["phases"].size() == 11);
 
     const json& flow = summary["sensors"]["drain"];
     REQUIRE(flow.size() >= 1);
