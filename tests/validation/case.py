@@ -18,6 +18,12 @@ class Simulation(NamedTuple):
     modulus: str = ""  # … with this Young's modulus [Pa], or that which the deck has
 
 
+def mean_and_error(values):
+    """The mean and its standard error; 0 of one value, where chance has no part."""
+    count = len(values)
+    return statistics.fmean(values), statistics.stdev(values) / math.sqrt(count) if count > 1 else 0.0
+
+
 class Row(NamedTuple):
     """A quantity with what others have for it; within its tolerance where the mean over the seeds is in [low, high]."""
     what: str
@@ -29,12 +35,11 @@ class Row(NamedTuple):
 
     @property
     def mean(self):
-        return statistics.fmean(self.values)
+        return mean_and_error(self.values)[0]
 
     @property
     def standard_error(self):
-        """0 of one value, where chance has no part."""
-        return statistics.stdev(self.values) / math.sqrt(len(self.values)) if len(self.values) > 1 else 0.0
+        return mean_and_error(self.values)[1]
 
     @property
     def within(self):

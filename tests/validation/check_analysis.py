@@ -158,7 +158,7 @@ class Analysis(unittest.TestCase):
         along, across = random.uniform(0, 1, 20000), random.integers(0, 5, 20000)
         below = random.uniform(0, 1, 20000)  # of each place, tops from the floor up to a slope of 20°
         tops = (1 - along * numpy.tan(numpy.radians(20))) * below
-        angle = same_scene.line_of_tops(along, across, tops, numpy.linspace(0, 1, 21), 5)
+        angle = same_scene.line_of_tops(along, across, tops, numpy.linspace(0, 1, 21))
         self.assertAlmostEqual(angle, -20, delta=0.5)
 
     def test_crater(self):
@@ -189,7 +189,7 @@ class Deck(unittest.TestCase):
                 f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n"
                 f"ITEM: ATOMS id type radius x y z\n1 1 0.005 0.1 0.2 {step}\n2 1 0.004 0.3 0.4 0.5\n"
                 for step in (0, 50)))
-            first, last = DeckRun(folder).spheres()
+            first, last = DeckRun(folder).spheres
         self.assertEqual((first.time, last.time), (0.0, 0.005))
         self.assertEqual(last.positions.tolist(), [[0.1, 0.2, 50], [0.3, 0.4, 0.5]])
         self.assertEqual(last.radii.tolist(), [0.005, 0.004])

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scenes run by LAMMPS and LIGGGHTS, as decks that `talus export` writes, and what these leave."""
+import functools
 import os
 import re
 import shutil
@@ -48,10 +49,11 @@ class DeckRun:
 
     def summary(self):
         return {"timing": {"cpu": float((self.folder / "cpu_s").read_text())},
-                "ledger": {"inserted": len(self.spheres()[0].radii)}}
+                "ledger": {"inserted": len(self.spheres[0].radii)}}
 
+    @functools.cached_property
     def spheres(self):
-        """Of each frame."""
+        """Of each frame; a file is read once."""
         found = []
         with (self.folder / "frames.lammpstrj").open() as file:
             while file.readline():  # ITEM: TIMESTEP
@@ -70,4 +72,4 @@ class DeckRun:
 
 def spheres_of(run):
     """Of each frame of a run, whichever program made it, in order of time."""
-    return run.spheres() if isinstance(run, DeckRun) else [Spheres(frame) for frame in run.frames()]
+    return run.spheres if isinstance(run, DeckRun) else [Spheres(frame) for frame in run.frames()]

@@ -3,6 +3,7 @@
 import importlib
 import math
 import statistics
+import textwrap
 from pathlib import Path
 
 from cases import CASES
@@ -60,7 +61,7 @@ def section(name, case, module, seeds):
                      f"| {'within' if row['within'] else '**outside**'} |")
     lines += ["", f"![{title}](validation/{name}.png)", ""]
     if module.FINDINGS:
-        lines += [module.FINDINGS, ""]
+        lines += [textwrap.fill(" ".join(module.FINDINGS.split()), 120), ""]
     lines += [f"{case['runs']} runs, of up to {case['spheres']} spheres: {case['seconds']:.0f} seconds. "
               f"Measured {case['date']} at {case['commit']}.", ""]
     return "\n".join(lines)

@@ -98,8 +98,9 @@ def judge(name, case, runs):
               f"[{row['low']:.4g}, {row['high']:.4g}]: {'within' if row['within'] else 'OUTSIDE'}", flush=True)
     commit = subprocess.run(["git", "log", "-1", "--format=%h", "--", "core", "scenarios", "io", "app", ":!*.md"],
                             cwd=ROOT, capture_output=True, text=True).stdout.strip()
-    seconds = sum(run.summary()["timing"]["cpu"] for run in runs.values())
-    spheres = max(run.summary()["ledger"]["inserted"] for run in runs.values())
+    summaries = [run.summary() for run in runs.values()]
+    seconds = sum(summary["timing"]["cpu"] for summary in summaries)
+    spheres = max(summary["ledger"]["inserted"] for summary in summaries)
     return {"rows": rows, "seconds": seconds, "runs": len(runs), "spheres": spheres, "commit": commit,
             "date": datetime.date.today().isoformat()}
 

@@ -29,6 +29,8 @@ from typing import NamedTuple
 import numpy
 
 from case import Row, over_seeds
+from deck import spheres_of
+from measures import mean_of_highest, volumes
 
 TITLE = "column collapse"
 FINDINGS = """The run-out of glass beads in a slot is linear up to a = 3, so that between 2 and 4 the exponent is not 2/3 yet:
@@ -80,7 +82,7 @@ def area(distance, kind):
 def front(distance, radii, kind):
     """Where the deposit becomes thinner than THICKNESS, going outwards [m]."""
     edges = numpy.arange(0, distance.max() + 4 * DIAMETER, 2 * DIAMETER)  # the last is empty
-    solid = numpy.histogram(distance, edges, weights=4 / 3 * math.pi * radii.astype(float) ** 3)[0]
+    solid = numpy.histogram(distance, edges, weights=volumes(radii))[0]
     thickness = solid / (FRACTION * numpy.diff(area(edges, kind))) / DIAMETER
     middles = 0.5 * (edges[1:] + edges[:-1])
     k = int(numpy.argmax(thickness < THICKNESS))
@@ -90,26 +92,18 @@ def front(distance, radii, kind):
 def top(spheres, distance, up_to):
     """Mean, over cells of the floor one diameter wide, of the highest top [m]."""
     inside = distance < up_to
-    cells = numpy.floor(spheres.positions[inside, :2] / DIAMETER)
-    tops = spheres.positions[inside, 2] + spheres.radii[inside]
-    _, cell = numpy.unique(cells, axis=0, return_inverse=True)
-    highest = numpy.full(cell.max() + 1, -numpy.inf)
-    numpy.maximum.at(highest, cell, tops)
-    return float(highest.mean())
+    return mean_of_highest((spheres.positions[:, 2] + spheres.radii)[inside],
+                           numpy.floor(spheres.positions[inside, :2] / DIAMETER))
 
 
 def measure(run, kind):
-    frames = [frame for frame in run.frames() if frame.time >= RELEASE - 0.011]
-    before, after = run.frame(frames[0].time), run.frame(frames[-1].time)
-    fronts = []
-    for frame in frames:
-        spheres = run.frame(frame.time)
-        fronts.append(front(distances(spheres, kind), spheres.radii, kind))
-    fronts = numpy.array(fronts)
+    frames = [spheres for spheres in spheres_of(run) if spheres.time >= RELEASE - 0.011]
+    before, after = frames[0], frames[-1]
+    fronts = numpy.array([front(distances(spheres, kind), spheres.radii, kind) for spheres in frames])
     height = top(before, distances(before, kind), LENGTH - 2 * DIAMETER)
     made = LENGTH + 0.98 * (fronts[-1] - LENGTH)
     arrival = frames[int(numpy.argmax(fronts >= made))].time - RELEASE
-    mass = DENSITY * 4 / 3 * math.pi * float(numpy.sum(after.radii.astype(float) ** 3))
+    mass = DENSITY * volumes(after.radii).sum()
     middle_before, middle_after = (top(one, distances(one, kind), 3 * DIAMETER) for one in (before, after))
     return Collapse(height / LENGTH, fronts[-1] / LENGTH - 1, middle_after / LENGTH, middle_after / middle_before,
                     arrival / math.sqrt(height / GRAVITY),

@@ -20,7 +20,8 @@ import math
 import numpy
 
 from case import SEEDS, Row, over_seeds
-from read_run import Spheres
+from deck import spheres_of
+from measures import mean_of_highest
 
 TITLE = "impact crater"
 FINDINGS = """The power of the height is that of the experiments; those of density and diameter are steeper. All balls
@@ -59,14 +60,12 @@ def surface(spheres):
     """Height of the bed [m], far from the ball: the mean of the highest tops in cells two beads wide."""
     x, y, z = spheres.positions[1:].T
     far = numpy.maximum(abs(x), abs(y)) > 0.05
-    cell = (numpy.floor(x / (2 * DIAMETER)) * 1000 + numpy.floor(y / (2 * DIAMETER)))[far]
-    tops = (z + spheres.radii[1:])[far]
-    return float(numpy.mean([tops[cell == one].max() for one in numpy.unique(cell)]))
+    return mean_of_highest((z + spheres.radii[1:])[far], *(numpy.floor(place[far] / (2 * DIAMETER)) for place in (x, y)))
 
 
 def track(run, drop):
     """Times [s] and depths [m] of the ball's lowest point below the surface as it is before the impact."""
-    frames = [Spheres(frame) for frame in run.frames()]
+    frames = spheres_of(run)
     level = surface(min(frames, key=lambda spheres: abs(spheres.time - (FLIGHT - 0.005))))
     return (numpy.array([spheres.time for spheres in frames]),
             numpy.array([level - (spheres.positions[0, 2] - drop[2] / 2) for spheres in frames]))

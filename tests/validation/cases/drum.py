@@ -22,6 +22,8 @@ from typing import NamedTuple
 import numpy
 
 from case import Row, over_seeds
+from deck import spheres_of
+from measures import volumes
 
 TITLE = "rotating drum"
 FINDINGS = """At 0.001 the bed swings by more than was expected. That is not the sensor: means over 0.1 s scatter as much
@@ -58,8 +60,7 @@ RUNS = [run for froude in WINDOWS for run in turned_at(froude)]
 
 def offset_moment(spheres):
     """Weight times the offset of the centre of mass, upwards on the side that the drum lifts [N m]."""
-    masses = DENSITY * 4 / 3 * math.pi * spheres.radii.astype(float) ** 3
-    return -GRAVITY * float(masses @ spheres.positions[:, 0])
+    return -GRAVITY * DENSITY * float(volumes(spheres.radii) @ spheres.positions[:, 0])
 
 
 def steady(run, froude):
@@ -73,7 +74,7 @@ def steady(run, froude):
     steps = numpy.diff(time, prepend=0)
     middle = time - 0.5 * steps  # a torque is the mean since the sample before
     rates = numpy.where(middle > SLOW, rate(froude), numpy.where(middle > BEGIN, FAST, 0.0))
-    moments = [offset_moment(run.frame(frame.time)) for frame in run.frames() if frame.time >= begin]
+    moments = [offset_moment(spheres) for spheres in spheres_of(run) if spheres.time >= begin]
     return Steady(metrics["surface_angle_deg"][inside], torque[inside].mean() / numpy.mean(moments),
                   1 - stored / power,
                   float(torque @ (rates * steps)) / run.summary()["error"]["energy"]["put_in"])

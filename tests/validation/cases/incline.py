@@ -27,6 +27,7 @@ from typing import NamedTuple
 import numpy
 
 from case import Row, over_seeds
+from measures import volumes
 
 TITLE = "rough incline"
 FINDINGS = """At 28° the flow still gains speed when it is measured, in the same way in all seeds: it has not become
@@ -90,8 +91,7 @@ def flow(run, angle):
     z, velocity, fraction = rows["position_m"], rows["velocity_x_m_per_s"], rows["packing_fraction"]
     filled = fraction > 0
     mean_velocity = float(numpy.average(velocity[filled], weights=fraction[filled]))
-    volume = float(4 / 3 * math.pi * numpy.sum(run.frame().radii.astype(float) ** 3))
-    height = volume / (AREA * fraction[(z > 0.02) & (z < 0.08)].mean())
+    height = volumes(run.frame().radii).sum() / (AREA * fraction[(z > 0.02) & (z < 0.08)].mean())
     core = (z > 2 * DIAMETER) & (z < height - 3 * DIAMETER)
     inside = (z > DIAMETER) & (z < height - 2 * DIAMETER)
     a, _, fitted = bagnold(z[inside], velocity[inside], height)

@@ -27,6 +27,7 @@ import math
 import numpy
 
 from case import Row, over_seeds
+from measures import volumes
 
 TITLE = "Janssen's silo"
 FINDINGS = """Whether a load overshoots depends on when it comes. In runs of one fill of 1 D whose floor went down by
@@ -77,7 +78,7 @@ def fitted_saturation(masses, loads):
 def measure(run):
     """The mass of the beads and what the floor carries [kg], and the bulk density of the beads [kg/m³]."""
     spheres = run.frame()
-    mass = DENSITY * 4 / 3 * math.pi * float(numpy.sum(spheres.radii**3))
+    mass = DENSITY * float(volumes(spheres.radii).sum())
     # Between the quarters of the height: without the loose surface.
     low, high = numpy.quantile(spheres.positions[:, 2], [0.25, 0.75])
     bulk_density = 0.5 * mass / (math.pi / 4 * DIAMETER**2 * (high - low))

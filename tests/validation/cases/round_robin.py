@@ -21,6 +21,7 @@ import numpy
 
 from case import Row, over_seeds
 from deck import spheres_of
+from measures import mean_of_highest
 from page import number
 
 TITLE = "the round robin of Dosta et al. 2024"
@@ -38,9 +39,7 @@ def track(run):
     low = numpy.array([spheres.positions[0, 2] for spheres in frames]) - RADIUS - FLOOR
     before = frames[numpy.searchsorted(time, 0.0181) - 1]
     x, y, z = before.positions[1:].T
-    cell = numpy.floor(x / 0.004) * 1000 + numpy.floor(y / 0.004)
-    tops = z + before.radii[1:] - FLOOR
-    return time, low, float(numpy.mean([tops[cell == one].max() for one in numpy.unique(cell)]))
+    return time, low, mean_of_highest(z + before.radii[1:] - FLOOR, numpy.floor(x / 0.004), numpy.floor(y / 0.004))
 
 
 def judge(runs):

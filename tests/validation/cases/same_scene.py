@@ -19,8 +19,9 @@ import math
 
 import numpy
 
-from case import SEEDS, Row, over_seeds
+from case import SEEDS, Row, mean_and_error, over_seeds
 from deck import spheres_of
+from measures import mean_of_highest
 from page import with_error
 
 TITLE = "the same hopper, pile and drum in LIGGGHTS and LAMMPS"
@@ -69,15 +70,14 @@ def flow(run):
     return -float(numpy.polyfit([spheres.time for spheres in window], above, 1)[0])
 
 
-def line_of_tops(along, across, tops, edges, strips):
+def line_of_tops(along, across, tops, edges):
     """Angle [deg] of the line through the means over strips of the highest tops in bins along it."""
     middles, heights = [], []
     for low, high in zip(edges, edges[1:]):
         here = (along >= low) & (along < high)
-        highest = [tops[here & (across == strip)].max() for strip in range(strips) if numpy.any(here & (across == strip))]
-        if highest:
+        if here.any():
             middles.append(0.5 * (low + high))
-            heights.append(numpy.mean(highest))
+            heights.append(mean_of_highest(tops[here], across[here]))
     return math.degrees(math.atan(numpy.polyfit(middles, heights, 1)[0]))
 
 
@@ -86,15 +86,14 @@ def angle_of_pile(run):
     x, y, z = spheres.positions.T
     heap = z < 0.14  # not what is still in the funnel
     sectors = numpy.floor((numpy.arctan2(y, x) / (2 * math.pi) + 0.5) * 24)
-    return -line_of_tops(numpy.hypot(x, y)[heap], sectors[heap], (z + spheres.radii)[heap], numpy.linspace(0.04, 0.14, 11),
-                         24)
+    return -line_of_tops(numpy.hypot(x, y)[heap], sectors[heap], (z + spheres.radii)[heap], numpy.linspace(0.04, 0.14, 11))
 
 
 def angle_of_drum(run):
     """Mean over the frames; the drum turns right-handed about y, so that the surface falls along x or against it."""
     return abs(numpy.mean([
         line_of_tops(spheres.positions[:, 0], numpy.floor(numpy.mod(spheres.positions[:, 1], 0.05) / 0.01),
-                     spheres.positions[:, 2] + spheres.radii, numpy.linspace(-0.5 * DRUM, 0.5 * DRUM, 13), 5)
+                     spheres.positions[:, 2] + spheres.radii, numpy.linspace(-0.5 * DRUM, 0.5 * DRUM, 13))
         for spheres in frames(run, TURNING)]))
 
 
@@ -110,10 +109,10 @@ def judge(runs):
     for what, (quantity, _) in MEASURES.items():
         values = tuple(found(runs, what, ""))
         for code in ("lammps", "liggghts"):
-            theirs = Row("", "", "", 0, 0, tuple(found(runs, what, code)))
-            margin = 0.05 * theirs.mean if what == "hopper" else 2.0
-            yield Row(f"{what}: {quantity}", f"{with_error(theirs.mean, theirs.standard_error)} ({CODES[code]})",
-                      "± 5 %" if what == "hopper" else "± 2", theirs.mean - margin, theirs.mean + margin, values)
+            mean, error = mean_and_error(found(runs, what, code))
+            margin = 0.05 * mean if what == "hopper" else 2.0
+            yield Row(f"{what}: {quantity}", f"{with_error(mean, error)} ({CODES[code]})",
+                      "± 5 %" if what == "hopper" else "± 2", mean - margin, mean + margin, values)
 
 
 def draw(figure, runs):
