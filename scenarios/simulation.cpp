@@ -98,6 +98,14 @@ bool has_reached(const Simulation& simulation, double time, std::int64_t steps_a
     return static_cast<double>(simulation.state.steps + steps_ahead) * h >= time - negligible_step * h;
 }
 
+void show_to_sensors(const Simulation& simulation, const StepReport& report, bool due)
+{
+    for (const auto& sensor : simulation.sensors) {
+        sensor->watch(snapshot(simulation, report));
+        if (due) sensor->sample(snapshot(simulation, report));
+    }
+}
+
 OverlapCheck check_overlaps(const Simulation& simulation)
 {
     const auto& state = simulation.state;

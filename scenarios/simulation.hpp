@@ -85,6 +85,10 @@ inline Snapshot snapshot(const Simulation& simulation, const StepReport& report)
     return {simulation.state, simulation.model, simulation.network, report};
 }
 
+/// Lets the sensors watch a step.
+/// @param due whether they take a sample, too
+void show_to_sensors(const Simulation& simulation, const StepReport& report, bool due);
+
 /// Overlaps of the spheres as they lie: how many contacts, and the worst of them.
 struct OverlapCheck {
     std::size_t count = 0;

@@ -67,7 +67,8 @@ public:
         hooks.before_step = go_on;
         hooks.after_step = [&](const StepReport& report) {
             cost_ += cost_of(report);
-            if (simulation_.state.time > from && !simulation_.incident_policy.stops(report)) look(report);
+            if (simulation_.state.time > from && !simulation_.incident_policy.stops(report))
+                show_to_sensors(simulation_, report, samples_.due(simulation_.state.time));
         };
         run_until(simulation_, to, hooks);
         is_whole_ = has_reached(simulation_, to);
@@ -90,15 +91,6 @@ private:
     Schedule samples_;
     double cost_ = 0.0;
     bool is_whole_ = false;
-
-    void look(const StepReport& report)
-    {
-        const bool due = samples_.due(simulation_.state.time);
-        for (const auto& sensor : simulation_.sensors) {
-            sensor->watch(snapshot(simulation_, report));
-            if (due) sensor->sample(snapshot(simulation_, report));
-        }
-    }
 };
 
 } // namespace

@@ -192,11 +192,7 @@ void Session::after_step(const StepReport& report)
     if (const std::string warning = watch_.warning_after(report, simulation); !warning.empty())
         warnings_.push_back(warning);
     if (simulation.incident_policy.stops(report)) return;
-    const bool due = samples_.due(simulation.state.time);
-    for (const auto& sensor : simulation.sensors) {
-        sensor->watch(snapshot(simulation, report));
-        if (due) sensor->sample(snapshot(simulation, report));
-    }
+    show_to_sensors(simulation, report, samples_.due(simulation.state.time));
     clock_.begin(RunPhase::output);
 }
 
