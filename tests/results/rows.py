@@ -32,7 +32,7 @@ class Run(NamedTuple):
             return [float(row[name]) for row in csv.DictReader(file)]
 
 
-Reader = Callable[[Run], float]
+Reader = Callable[[Run], float | str]
 
 
 class Row(NamedTuple):
@@ -41,7 +41,7 @@ class Row(NamedTuple):
     section: str
     what: str
     command: str
-    figures: dict[str, Reader]
+    figures: dict[str, Reader]  # numbers, or text
     shown: str  # format of the figures
     reference: str  # with its source; empty where there is none
     minutes: float  # about, on two processors
@@ -73,6 +73,30 @@ def spread(path) -> Reader:
 
 def ratio(above, below) -> Reader:
     return lambda run: run.summary(above) / run.summary(below)
+
+
+def change(told):
+    """Of a result by step or solver, as the table of a run has it."""
+    if told["error"] is None:
+        return "?"
+    return f"{'below ' if not told['seen'] and told['error'] > 0 else ''}{told['error']:.2g}"
+
+
+def with_errors(path) -> Reader:
+    """A result of `--error-estimate`: value ± spread ± step ± solver, and its unit."""
+    def read(run):
+        result = run.summary(f"sensors.{path}")
+        return (f"{result['value']:.5g} ± {result['spread']:.2g} ± {change(result['step'])} (step) ± "
+                f"{change(result['solver'])} (solver) {result['unit']}")
+    return read
+
+
+def beside(phase) -> Reader:
+    """CPU seconds of a phase by those of all others but what an error estimate makes."""
+    def read(run):
+        phases = {name: spent["cpu"] for name, spent in run.summary("timing.phases").items()}
+        return phases[phase] / (sum(phases.values()) - phases["looks"] - phases["companions"])
+    return read
 
 
 def said(pattern) -> Reader:
@@ -127,6 +151,22 @@ def at_rest(name, what, scene, test, minutes):
     for law, of_these in (("matched", minutes), ("projected", 0.0)):
         yield Row(f"{name}_{law}", REST, f"{what}, `{law}`", f'build/test_validation "{test}"', while_quiet(scene, law),
                   shown, "", of_these)
+
+
+def estimate(scene, path, minutes):
+    """Two rows, of what a run with `--error-estimate` tells of its error, and of what that costs."""
+    command = f"build/talus run {scene} --error-estimate --threads 1"
+    yield Row(f"{scene}_estimate", COST, f"`{scene} --error-estimate`: {path.replace('.', ' ').replace('_', ' ')}; error of "
+              "velocities as a share of what contacts change in a step, and of the flow; of contact forces by their mean",
+              command, {"result": with_errors(path), "contacts": summary("error.solver.velocity.of_contacts"),
+                        "flow": summary("error.solver.velocity.of_flow"), "forces": summary("error.solver.contact_forces")},
+              "{result}; {contacts:.1%}, {flow:.2%}; {forces:.1%}", "", minutes)
+    yield Row(f"{scene}_estimate_cost", COST, f"`{scene} --error-estimate`: looks and their steps solved to the end; "
+              "companions and their pieces; CPU seconds of both by those of the run", command,
+              {"looks": summary("error.solver.looks"), "to_the_end": summary("error.solver.to_the_end"),
+               "pieces": summary("error.companions.pieces"), "look_cost": beside("looks"),
+               "companion_cost": beside("companions")},
+              "{looks:.0f}, {to_the_end:.0f}; {pieces:.0f}; {look_cost:.0%}, {companion_cost:.0%}", "", 0)
 
 
 ROWS = [
@@ -202,6 +242,11 @@ ROWS = [
         {"cpu": ratio("timing.cpu", "time.simulated"), "search": ratio("timing.phases.search.cpu", "timing.cpu")},
         "{cpu:.0f}; {search:.0%}", "LIGGGHTS 3.8 while it discharges, on a machine of two virtual processors: 31 to 34 "
         "with 5e6 Pa, 62 to 67 with 5e7 Pa", 0),
+    Row("hopper_looks", COST, "`hopper`: looks, and what they take beside the CPU seconds of the run", HOPPER,
+        {"looks": summary("error.solver.looks"), "cost": beside("looks")}, "{looks:.0f}; {cost:.1%}", "", 0),
+    *estimate("hopper", "outlet.mass_flow", 8),
+    *estimate("pile", "heap.angle", 8),
+    *estimate("drum", "surface.angle", 8),
     Row("large", COST, "100 000 beads fall into a box: seconds a step, memory at the peak, shares of sweeps, search "
         "and assembly in the CPU seconds", LARGE,
         {"step": ratio("timing.wall", "time.steps"), "threads": summary("threads"),
