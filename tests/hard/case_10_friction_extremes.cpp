@@ -85,7 +85,7 @@ void judge_stirred_boxes(HardCase& hard, const std::string& which, double fricti
 
 } // namespace
 
-TEST_CASE("10 no friction, and friction of 10 and 1e6", "[hard][quick]")
+TEST_CASE("10 no friction, and friction of 10 and 1e6", "[hard]")
 {
     // Without friction nothing tangential is there at all: the bits of what slides along and of what spins stay. With
     // very much, the disk never cuts: a sphere rolls down whatever the slope, 5/7 g sin theta, and impulses, each of

@@ -123,20 +123,21 @@ class Analysis(unittest.TestCase):
         # Layers of beads, two diameters thick up to 0.2 m and a tenth of a diameter beyond.
         random = numpy.random.default_rng(1)
         for kind in ("slot", "round"):
-            radius = 0.5 * column_collapse.DIAMETER
+            diameter = column_collapse.DIAMETERS[kind]
+            radius = 0.5 * diameter
             bead = 4 / 3 * math.pi * radius**3
             floor = column_collapse.area(numpy.array([0.2, 0.3]), kind)
-            thick, thin = (numpy.array([2, 0.1]) * column_collapse.DIAMETER * column_collapse.FRACTION
+            thick, thin = (numpy.array([2, 0.1]) * diameter * column_collapse.FRACTION
                            * numpy.diff(floor, prepend=0) / bead).astype(int)
             share = numpy.concatenate([random.random(thick) * floor[0],
                                        floor[0] + random.random(thin) * (floor[1] - floor[0])])
             distance = numpy.sqrt(share / math.pi * 4) if kind == "round" else share / column_collapse.DEPTH
             found = column_collapse.front(distance, numpy.full(len(distance), radius), kind)
-            self.assertAlmostEqual(found, 0.2, delta=1.1 * column_collapse.DIAMETER)
+            self.assertAlmostEqual(found, 0.2, delta=1.1 * diameter)
         spheres = SimpleNamespace(radii=numpy.full(3, 0.0025), positions=numpy.array(
             [[0.001, 0.001, 0.0025], [0.002, 0.001, 0.0075], [0.006, 0.001, 0.0025]]))
-        self.assertAlmostEqual(column_collapse.top(spheres, spheres.positions[:, 0], 0.1), 0.0075, places=9)
-        self.assertAlmostEqual(column_collapse.top(spheres, spheres.positions[:, 0], 0.005), 0.01, places=9)
+        self.assertAlmostEqual(column_collapse.top(spheres, spheres.positions[:, 0], 0.1, 0.005), 0.0075, places=9)
+        self.assertAlmostEqual(column_collapse.top(spheres, spheres.positions[:, 0], 0.005, 0.005), 0.01, places=9)
 
     def test_exponent_of_collapses(self):
         collapses = [column_collapse.Collapse(a, 1.6 * a**0.5, a, 1, 3, 0) for a in (2, 4, 8)]

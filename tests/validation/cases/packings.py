@@ -5,7 +5,7 @@ Law: at vanishing pressure a packing of spheres without friction is isostatic, 6
 packing; with friction fewer contacts hold it, 4 at least, in a looser packing (Silbert 2010, Soft Matter 6, 2918).
 
 Parameters: 2000 beads ± 5 % without gravity between two rough plates, periodic sideways, brought together slowly,
-pressed by 280 Pa and let go to 56 Pa (scenes/compressed.toml). Solid fraction, and coordination of the beads with two
+pressed by 280 Pa until they rest, 6 s (scenes/compressed.toml, which lets go after half a second). Solid fraction, and coordination of the beads with two
 contacts or more, of what is more than three layers from the plates. Besides, without friction, the same beads poured
 under gravity below a lid that is held.
 
@@ -21,10 +21,12 @@ import math
 from case import SEEDS, Row, over_seeds
 
 TITLE = "packings"
-FINDINGS = """Pressed without friction, the packing still shakes at its end, and at any moment some of its contacts
-carry nothing and are not counted: beads that nothing holds go on sliding in their cages, which seems to be why. Under
-gravity they lie still, and the coordination is that of an isostatic packing, with a little more that the softness of
-the contacts would add. With friction 1 most of what is missing to 4 contacts is in beads that hang between two, of which
+FINDINGS = """Pressed without friction, the packing still creeps at its end, and shakes while it does: at any moment some
+of its contacts carry nothing and are not counted. Of one seed, left for 2.6 s more, the solid fraction went on from 0.6326
+to 0.6347, by which the lid did the work that the shaking takes (0.29 mJ); the run gained no energy, the kinetic energy is
+as large with half the step, with a tolerance of 1e-5 and with `projected`, and the coordination is between 5.1 and 5.6 in
+all of these. So it is no packing at rest yet. Under gravity beads lie still, and the coordination is that of an isostatic
+packing, with a little more that the softness of the contacts would add. With friction 1 most of what is missing to 4 contacts is in beads that hang between two, of which
 Agnolin & Roux add two thirds of a contact each; with 10 only a part of it is. A finer tolerance of the solver changes
 neither. That, and a denser packing with friction 10 than Silbert's, is not explained yet. The relation of Song, Wang &
 Makse fails where the coordination is low."""
@@ -38,7 +40,9 @@ COORDINATIONS = {0.0: (6.0, 0.1, "isostatic"), 0.01: (5.8, 0.3, SILBERT), 0.1: (
 
 
 def runs_with(friction):
-    return over_seeds(f"packing_{friction}", "compressed", {"contact.0.friction": friction})
+    return over_seeds(f"packing_{friction}", "compressed", {
+        "contact.0.friction": friction, "wall.lid.load": "[[0, 0.3], [0.9, 0.3], [1.1, 4]]", "time.duration": 7,
+        "sensor.middle.from": 6.9})
 
 
 POURED = over_seeds("packing_poured", "compressed", {
