@@ -72,10 +72,10 @@ def sharma(sizes, n):
 
 
 FINDINGS = f"""Such outlets are not wide enough for Beverloo's law alone, and newer laws say so. Through outlets of 6
-to 14 d the law of Mankoc et al. 2007 gives by the same fits an exponent of {fit(SIZES[:4], mankoc(SIZES[:4]),
-K)[0]:.2f} and k = {fit(SIZES[:4], mankoc(SIZES[:4]))[2]:.2f}, that of Sharma et al. 2025, who measured and simulated
-spheres, {fit(SIZES[:4], sharma(SIZES[:4], 10), K)[0]:.2f} to {fit(SIZES[:4], sharma(SIZES[:4], 15), K)[0]:.2f} and k
-= {fit(SIZES[:4], sharma(SIZES[:4], 10))[2]:.2f} to {fit(SIZES[:4], sharma(SIZES[:4], 15))[2]:.2f}: Talus lies between
+to 20 d the law of Mankoc et al. 2007 gives by the same fits an exponent of {fit(SIZES, mankoc(SIZES),
+K)[0]:.2f} and k = {fit(SIZES, mankoc(SIZES))[2]:.2f}, that of Sharma et al. 2025, who measured and simulated
+spheres, {fit(SIZES, sharma(SIZES, 10), K)[0]:.2f} to {fit(SIZES, sharma(SIZES, 15), K)[0]:.2f} and k
+= {fit(SIZES, sharma(SIZES, 10))[2]:.2f} to {fit(SIZES, sharma(SIZES, 15))[2]:.2f}: Talus lies between
 the two, so by them k = 1.4 does not fit such spheres over such a bottom. Both put it down to dilution at the outlet,
 which is there: in the last frames of the runs with 8 d the solid fraction above it is 0.42 in the first diameter,
 0.52 from 2 to 4 d and 0.57 from 8 to 12 d, and the 0.59 of Beverloo's constant bulk density nowhere. In a cone, where
