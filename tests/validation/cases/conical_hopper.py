@@ -24,15 +24,15 @@ from case import Row, over_seeds
 from .beverloo import DIAMETER, PLAIN, flows
 
 TITLE = "conical hopper"
-FINDINGS = """Cones give more than the laws say, since these compare wide outlets, and k differs: in Beverloo's case, with
-outlets of 6 to 14 d the flat bottom has C = 0.58 and k = 1.77, and a cone of 30° has C = 0.638 ± 0.008 and k = 1.15 ± 0.04, by three more
-runs with an outlet of 5 d and 4500 beads. So C is 1.10 times as large as that of the flat bottom, as Brown's law has
-it; the rest is that beads come down along the wall and not across an edge, which takes less of the outlet from them.
-Were C that of Brown at every angle, k would be 1.09 at 15°, 1.14 at 30°, 1.25 at 45° and 1.58 at 60°. LIGGGHTS has
-the flow of Talus, to 3 %, in the cone of 30° of scenarios/hopper.toml. At 60° no zone stands: in the run with seed 1,
-95 % of the beads at the wall go 0.75 diameters or more in the 0.3 s, those in the tube two. Beads roll down the
-smooth wall, by which it has less friction than its 0.5; the bound is 60° where it has less than 9°, but rolling was
-not switched off to see."""
+FINDINGS = """Cones give more than the laws say, since these compare wide outlets, and k differs: in Beverloo's case,
+with outlets of 6 to 14 d, the flat bottom has C = 0.58 and k = 1.75, and a cone of 30° has C = 0.638 ± 0.008 and k =
+1.15 ± 0.04, by three more runs with an outlet of 5 d and 4500 beads. So C is 1.10 times as large as that of the flat
+bottom, as Brown's law has it; the rest is that beads come down along the wall and not across an edge, which takes less
+of the outlet from them. Were C that of Brown at every angle, k would be 1.09 at 15°, 1.14 at 30°, 1.25 at 45° and 1.58
+at 60°. LIGGGHTS has the flow of Talus, to 3 %, in the cone of 30° of scenarios/hopper.toml. At 60° no zone stands: in
+the run with seed 1, 95 % of the beads at the wall go 0.75 diameters or more in the 0.3 s, those in the tube two. Beads
+roll down the smooth wall, by which it has less friction than its 0.5; the bound is 60° where it has less than 9°, but
+rolling was not switched off to see."""
 OUTLET, TUBE = 0.04, 0.10  # radii, m
 RANGES = {15: (1.2, 1.6), 30: (1.05, 1.25), 45: (0.9, 1.1), 60: (0.85, 1.05)}  # by the half-angle, °
 WATCHED = (1.5, 1.8)  # s, two frames

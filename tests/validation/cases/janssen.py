@@ -32,15 +32,14 @@ from measures import volumes
 TITLE = "Janssen's silo"
 FINDINGS = """Whether a load overshoots depends on when it comes. In runs of one fill of 1 D whose floor went down by
 three diameters (one seed), with a lid that had its weight from the start, as in the first set of runs, the floor
-carried 1.11 times what Janssen's law gives with the M_s of that fill while it went down the first tenth of a
-diameter, when the fill alone carried 1.14 times its later load too, and 0.98 afterwards. With a lid that got its
-weight when the floor had gone down one diameter it carried 1.06 times as much for half a diameter, and 1.015
-afterwards: an overshoot that decays, of mobilised walls only. So the lid gets its weight when the walls are mobilised,
-and the overshoot on 2 D is that of Ovarlez et al. Cambau, Hure & Marthelot 2013 (arXiv 1308.5833) find Janssen's
-description confirmed with a mass on top. What the floor below a smooth wall carries
-swings by a percent with a period of 0.1 s, since the bed bounces after the floor has set off, and the window holds three
-of them: 0.16 % of the weight is a change of speed by 5 mm/s in it. One run was made with a tenth of the tolerance too:
-1.0002 of the weight, where it has 0.9990."""
+carried 1.11 times what Janssen's law gives with the M_s of that fill while it went down the first tenth of a diameter,
+when the fill alone carried 1.14 times its later load too, and 0.98 afterwards. With a lid that got its weight when the
+floor had gone down one diameter it carried 1.06 times as much for half a diameter, and 1.015 afterwards: an overshoot
+that decays, of mobilised walls only. So the lid gets its weight when the walls are mobilised, and the overshoot on 2 D
+is that of Ovarlez et al. Cambau, Hure & Marthelot 2013 (arXiv 1308.5833) find Janssen's description confirmed with a
+mass on top. What the floor below a smooth wall carries swings by a percent with a period of 0.1 s, since the bed
+bounces after the floor has set off, and the window holds three of them: 0.16 % of the weight is a change of speed by 5
+mm/s in it. One run was made with a tenth of the tolerance too: 1.0002 of the weight, where it has 0.9990."""
 BEADS = 3000  # for each diameter of height
 HEIGHTS = (1, 2, 4, 6)  # of fills, in diameters
 OVERLOADED = (1, 2)

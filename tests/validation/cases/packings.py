@@ -27,7 +27,7 @@ nothing and are not counted. Then coordination was 5.45 without friction, 3.83 a
 had no part in it: energy was nowhere gained, and a tolerance of 1e-5, half the step and `projected` crept as much. At rest
 they have what is published. With friction 10 letting go makes a packing that rests creep again, from 4.14 to 3.6 to 3.9
 contacts (one seed), so none is let go now. With friction 10 they are denser than Silbert's by 0.022, just too much: how
-dense a packing is depends on how it is made, and his are made in another way. Poured beads have 6.12 contacts, whose
+dense a packing is depends on how it is made, which was not varied here. Poured beads have 6.12 contacts, whose
 excess over 6 is one standard error. The relation of Song, Wang & Makse fails where the coordination is low."""
 FRICTIONS = (0.0, 0.01, 0.1, 0.3, 1.0, 10.0)
 CLOSE, LOOSE = "Scott & Kilgour 1969", "Agnolin & Roux 2007"

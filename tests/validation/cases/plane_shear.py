@@ -9,14 +9,14 @@ straight line (Pouliquen, Cassar, Jop, Forterre & Nicolas 2006, J. Stat. Mech. P
 sheared by its weight on the incline of incline.py has the same μ and φ at the same I: the rheology is local.
 
 Parameters: 2200 beads ± 5 % between plates of grains twice as wide, on periodic axes, 10 × 8 × 24 diameters, 1000 Pa, no
-gravity, restitution 0. I of about 0.01 and 0.04 for each friction, 0.12 too without friction, 0.1 and 0.2 too with 0.5. Averages
-without six layers at each plate, of strains of 1.6 and more after half as much. The limit I → 0 is a straight line
-through I = 0.01 and 0.04; without friction it is one in I^0.38 (Peyneau & Roux, from memory), through three points.
+gravity, restitution 0. I of about 0.01 and 0.04 for each friction, 0.12 too without friction, 0.1 and 0.2 too with 0.5.
+Averages without six layers at each plate, of strains of 1.6 and more after half as much. The limit I → 0 is a straight
+line through I = 0.01 and 0.04; without friction it is one in I^0.38 (Peyneau & Roux, from memory), through three points.
 
 Tolerances, fixed before the runs: η ± 0.02 and φ_c ± 0.015, since Chialvo's table was quoted from memory and is of beads
 of one size; μ(I) of glass beads ± 0.04; slope of φ(I) from −0.4 to −0.1. Incline of 24° less plane shear:
-μ ± 0.02, φ ± 0.01. The slow rates were chosen anew, for time, after one seed had been seen, and the plates and the height after all had been
-(FINDINGS); no tolerance was touched.
+μ ± 0.02, φ ± 0.01. The slow rates were chosen anew, for time, after one seed had been seen, and the plates and the height
+after all had been (FINDINGS); no tolerance was touched.
 """
 import math
 from typing import NamedTuple
