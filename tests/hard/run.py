@@ -112,7 +112,10 @@ def main():
     table = markdown([cases[name] for name in names])
     print("\n" + table)
     if arguments.write:
-        write_between_marks(arguments.write, table)
+        commit = subprocess.run(["git", "log", "-1", "--format=%h"], cwd=pathlib.Path(__file__).parent, capture_output=True,
+                                text=True).stdout.strip()
+        write_between_marks(arguments.write, f"All rows are of commit {commit}, on {os.cpu_count()} processors that other "
+                                             f"programs may have used too.\n\n{table}")
     sys.exit(any(row[3] == "FAILED" for rows in cases.values() for row in rows))
 
 
