@@ -12,9 +12,9 @@ class Simulation(NamedTuple):
     """A run of a scene."""
     name: str  # of its folder; cases that give the same one share the run
     scene: str  # a name of scenarios/ or of tests/validation/scenes/
-    settings: dict[str, object] = {}  # as of --set
+    settings: dict[str, object] = {}  # as of --set, or variables of a deck
     seed: int = 1
-    program: str = ""  # "lammps" or "liggghts" runs the scene as a deck of theirs; otherwise Talus does …
+    program: str = ""  # "lammps" or "liggghts" runs the scene as a deck of theirs, or their own; otherwise Talus does …
     modulus: str = ""  # … with this Young's modulus [Pa], or that which the deck has
 
 
@@ -43,12 +43,18 @@ class Row(NamedTuple):
 
     @property
     def within(self):
-        return self.low <= self.mean <= self.high
+        """None where the row has no tolerance."""
+        return self.low <= self.mean <= self.high if self.tolerance else None
+
+
+def told(what, values, reference=""):
+    """A row for information, which has no tolerance."""
+    return Row(what, reference, "", -math.inf, math.inf, tuple(map(float, values)))
 
 
 def scene_file(scene):
-    """The path of a scene of tests/validation/scenes/, or the name of a supplied one."""
-    path = Path(__file__).parent / "scenes" / f"{scene}.toml"
+    """The path of a scene or deck of tests/validation/scenes/, or the name of a supplied scene."""
+    path = Path(__file__).parent / "scenes" / (scene if "." in scene else f"{scene}.toml")
     return str(path) if path.is_file() else scene
 
 

@@ -122,17 +122,18 @@ class Analysis(unittest.TestCase):
     def test_front_and_top_of_a_deposit(self):
         # Layers of beads, two diameters thick up to 0.2 m and a tenth of a diameter beyond.
         random = numpy.random.default_rng(1)
-        for kind in ("slot", "round"):
-            diameter = column_collapse.DIAMETERS[kind]
+        for shape in (column_collapse.SLOT, column_collapse.ROUND):
+            diameter = shape.diameter
             radius = 0.5 * diameter
             bead = 4 / 3 * math.pi * radius**3
-            floor = column_collapse.area(numpy.array([0.2, 0.3]), kind)
+            floor = column_collapse.area(numpy.array([0.2, 0.3]), shape)
             thick, thin = (numpy.array([2, 0.1]) * diameter * column_collapse.FRACTION
                            * numpy.diff(floor, prepend=0) / bead).astype(int)
             share = numpy.concatenate([random.random(thick) * floor[0],
                                        floor[0] + random.random(thin) * (floor[1] - floor[0])])
-            distance = numpy.sqrt(share / math.pi * 4) if kind == "round" else share / column_collapse.DEPTH
-            found = column_collapse.front(distance, numpy.full(len(distance), radius), kind)
+            distance = (numpy.sqrt(share / math.pi * 4) if column_collapse.is_round(shape)
+                        else share / column_collapse.depth(shape))
+            found = column_collapse.front(distance, numpy.full(len(distance), radius), shape)
             self.assertAlmostEqual(found, 0.2, delta=1.1 * diameter)
         spheres = SimpleNamespace(radii=numpy.full(3, 0.0025), positions=numpy.array(
             [[0.001, 0.001, 0.0025], [0.002, 0.001, 0.0075], [0.006, 0.001, 0.0025]]))

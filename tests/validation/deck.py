@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes run by LAMMPS and LIGGGHTS, as decks that `talus export` writes, and what these leave."""
+"""Decks run by LAMMPS and LIGGGHTS, those that `talus export` writes of scenes and their own, and what they leave."""
 import functools
 import os
 import re
@@ -28,9 +28,10 @@ def program_of(format):
     return next(filter(None, map(shutil.which, PROGRAMS[format])), None)
 
 
-def run_deck(format, folder, modulus):
+def run_deck(format, folder, variables):
     """Runs the deck in its folder, on one thread; keeps its CPU seconds there. Returns its exit code."""
-    command = [program_of(format), "-in", f"in.{format}", *(["-var", "modulus", modulus] if modulus else [])]
+    command = [program_of(format), "-in", f"in.{format}",
+               *(word for name, value in variables.items() for word in ("-var", name, str(value)))]
     with (folder / "said.txt").open("w") as said, subprocess.Popen(
             command, cwd=folder, stdout=said, stderr=subprocess.STDOUT, env=dict(os.environ, OMP_NUM_THREADS="1")) as child:
         _, status, usage = os.wait4(child.pid, 0)

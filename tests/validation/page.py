@@ -12,16 +12,17 @@ PAGE = Path(__file__).resolve().parents[1] / "results/validation.md"
 
 HEAD = """# Beside theory and experiment
 
-Bulk behaviour that others have measured, computed or derived, and what Talus has for it. `tests/run validation`
-makes the runs and writes this page; the docstring of each case, in `tests/validation/cases/`, says more of its law,
+Bulk behaviour that others have measured, computed or derived, and what Talus has for it. `tests/run validation` makes
+the runs and writes this page; the docstring of each case, in `tests/validation/cases/`, says more of its law,
 parameters and sources, and why its tolerance is what it is. Values are the mean over {seeds} seeds, or as many as are
-told, ± its standard error, and are within their tolerance where the mean is; one without an error is of one run, where
-chance has no part. Tolerances were written down before the runs, but where the docstring says other. References "from
-memory" were not read again: their tolerances are wide for that. Seconds are those of the processor, of all runs of a
-case; cases may share runs.
+told, ± its standard error, and are within their tolerance where the mean is; one without an error is of one run. Rows
+without a tolerance are for information. Tolerances were written down before the runs, but where the docstring says
+other. References "from memory" were not read again: their tolerances are wide for that. Seconds are those of the
+processor, of all runs of a case; cases may share runs.
 
 {verdict}{missing}
 """
+VERDICTS = {True: "within", False: "**outside**", None: ""}
 
 
 def number(value):
@@ -37,7 +38,7 @@ def with_error(value, error):
 
 
 def verdict_of(cases):
-    rows = [row for case in cases.values() for row in case["rows"]]
+    rows = [row for case in cases.values() for row in case["rows"] if row["within"] is not None]
     outside = [row for row in rows if not row["within"]]
     if not outside:
         return f"All {len(rows)} quantities are within their tolerance."
@@ -58,7 +59,7 @@ def section(name, case, module, seeds):
     for row in case["rows"]:
         lines.append(f"| {row['what']} | {row['reference']} | {row['tolerance']} "
                      f"| {value_of(row, seeds)} "
-                     f"| {'within' if row['within'] else '**outside**'} |")
+                     f"| {VERDICTS[row['within']]} |")
     lines += ["", f"![{title}](validation/{name}.png)", ""]
     if module.FINDINGS:
         lines += [textwrap.fill(" ".join(module.FINDINGS.split()), 120), ""]

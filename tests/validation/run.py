@@ -19,6 +19,7 @@ import hashlib
 import importlib
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -30,7 +31,7 @@ sys.path[:0] = [str(Path(__file__).parent), str(ROOT / "postprocess")]
 from case import scene_file  # noqa: E402  found by the line above
 from cases import CASES  # noqa: E402
 from deck import DeckRun, program_of, run_deck  # noqa: E402
-from page import write_page  # noqa: E402
+from page import VERDICTS, write_page  # noqa: E402
 from read_run import Run  # noqa: E402
 
 matplotlib.use("Agg")
@@ -72,8 +73,15 @@ def make(talus, run):
     if not (mark.is_file() and mark.read_text() == checksum):
         folder.parent.mkdir(parents=True, exist_ok=True)
         if run.program:
-            call(talus, "export", run, folder, "--format", run.program)
-            code = run_deck(run.program, folder, run.modulus)
+            if run.scene.endswith(f".{run.program}"):
+                shutil.rmtree(folder, ignore_errors=True)
+                folder.mkdir()
+                shutil.copy(scene_file(run.scene), folder / f"in.{run.program}")
+                variables = dict(run.settings, seed=run.seed)
+            else:
+                call(talus, "export", run, folder, "--format", run.program)
+                variables = {"modulus": run.modulus} if run.modulus else {}
+            code = run_deck(run.program, folder, variables)
             if code:
                 raise RunFailed(f"{run.program} ended with {code} in {folder}, see said.txt there.")
         else:
@@ -95,7 +103,7 @@ def judge(name, case, runs):
             for row in case.judge(runs)]
     for row in rows:
         print(f"{name}: {row['what']}: {row['mean']:.4g} ± {row['standard_error']:.2g}, "
-              f"[{row['low']:.4g}, {row['high']:.4g}]: {'within' if row['within'] else 'OUTSIDE'}", flush=True)
+              f"[{row['low']:.4g}, {row['high']:.4g}]: {VERDICTS[row['within']]}", flush=True)
     commit = subprocess.run(["git", "log", "-1", "--format=%h", "--", "core", "scenarios", "io", "app", ":!*.md"],
                             cwd=ROOT, capture_output=True, text=True).stdout.strip()
     summaries = [run.summary() for run in runs.values()]

@@ -19,9 +19,9 @@ import math
 
 import numpy
 
-from case import SEEDS, Row, over_seeds
+from case import SEEDS, Row, over_seeds, told
 from deck import spheres_of
-from measures import mean_of_highest
+from measures import mean_of_highest, volumes
 
 TITLE = "impact crater"
 FINDINGS = """The power of the height is that of the experiments; those of density and diameter are steeper. All balls
@@ -33,7 +33,7 @@ E 107, 044901) trace the different scaling laws of the literature to the packing
 wide; finer beads have not been run."""
 GRAVITY, DIAMETER, BULK_DENSITY = 9.81, 0.005, 1500.0  # of beads and bed
 FLIGHT = 0.08  # s, until the ball lands
-BED = 0.1  # height, m
+BED, WIDTH = 0.1, 0.15  # height and width, m
 REPOSE = math.tan(math.radians(22))
 BASE = (0.15, 2500.0, 0.04)  # height of the fall [m], density [kg/m³] and diameter [m] of the ball
 HEIGHTS, DENSITIES, DIAMETERS = (0.05, 0.15, 0.45), (1000.0, 2500.0, 6000.0), (0.025, 0.04)
@@ -55,14 +55,21 @@ def simulations(drop):
         "fill.0.velocity": [0, 0, -speed]})
 
 
-RUNS = [run for drop in DROPS for run in simulations(drop)]
+def finer(drop):
+    """The same on a bed of beads half as wide."""
+    return over_seeds("crater_finer", "crater", {
+        **simulations(drop)[0].settings, "fill.1.diameter.min": 0.002375, "fill.1.diameter.max": 0.002625}, seeds=(1,))
+
+
+RUNS = [*(run for drop in DROPS for run in simulations(drop)), *finer(BASE)]
 
 
 def surface(spheres):
     """Height of the bed [m], far from the ball: the mean of the highest tops in cells two beads wide."""
     x, y, z = spheres.positions[1:].T
     far = numpy.maximum(abs(x), abs(y)) > 0.05
-    return mean_of_highest((z + spheres.radii[1:])[far], *(numpy.floor(place[far] / (2 * DIAMETER)) for place in (x, y)))
+    cell = 4 * numpy.mean(spheres.radii[1:])
+    return mean_of_highest((z + spheres.radii[1:])[far], *(numpy.floor(place[far] / cell) for place in (x, y)))
 
 
 def track(run, drop):
@@ -73,15 +80,23 @@ def track(run, drop):
             numpy.array([level - (spheres.positions[0, 2] - drop[2] / 2) for spheres in frames]))
 
 
-def found(runs, drop):
+def found(runs, drop, of=simulations):
     """Depths and heights of the whole drop, for each seed [m]."""
-    depths = numpy.array([track(runs[run.name], drop)[1] for run in simulations(drop)])
+    depths = numpy.array([track(runs[run.name], drop)[1] for run in of(drop)])
     return depths[:, -1], depths[:, -1] - depths[:, 0] + start_speed(drop[0]) ** 2 / (2 * GRAVITY)
 
 
 def uehara(drop, whole):
     _, density, diameter = drop
     return 0.14 / REPOSE * math.sqrt(density / BULK_DENSITY) * diameter ** (2 / 3) * whole ** (1 / 3)
+
+
+def fraction(run):
+    """Of solid, between a fifth and three fifths of the bed's height before the impact, by the centres."""
+    spheres = min(spheres_of(run), key=lambda spheres: abs(spheres.time - (FLIGHT - 0.005)))
+    z = spheres.positions[1:, 2]
+    inside = (z > 0.2 * BED) & (z < 0.6 * BED)
+    return volumes(spheres.radii[1:][inside]).sum() / (0.4 * BED * WIDTH**2)
 
 
 def power(values, depths):
@@ -104,6 +119,10 @@ def judge(runs):
     ratios = [depth / uehara(drop, whole) for drop in DROPS for depth, whole in [found(runs, drop)]]
     yield Row("depth / that of the formula", "1 (Uehara et al. 2003, 0.14 from memory)", "0.7 to 1.4", 0.7, 1.4,
               tuple(map(float, numpy.mean(ratios, axis=0))))
+    for what, of in (("", simulations), (", on beads half as wide (one run)", finer)):
+        depth, whole = found(runs, BASE, of)
+        yield told(f"ball of 2500 kg/m³ that falls 0.15 m{what}: depth / that of the formula", depth / uehara(BASE, whole))
+    yield told("solid fraction of the bed", (fraction(runs[run.name]) for run in simulations(BASE)))
 
 
 def draw(figure, runs):

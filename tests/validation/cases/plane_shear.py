@@ -15,7 +15,8 @@ line through I = 0.01 and 0.04; without friction it is one in I^0.38 (Peyneau & 
 
 Tolerances, fixed before the runs: η ± 0.02 and φ_c ± 0.015, since Chialvo's table was quoted from memory and is of beads
 of one size; μ(I) of glass beads ± 0.04; slope of φ(I) from −0.4 to −0.1. Incline of 24° less plane shear:
-μ ± 0.02, φ ± 0.01. The slow rates were chosen anew, for time, after one seed had been seen, and the plates and the height
+μ ± 0.02, φ ± 0.01. The cell of LAMMPS, periodic along all axes (scenes/shear_cell.lammps: 1000 equal spheres, restitution
+0.7), came afterwards, with the same tolerance. The slow rates were chosen anew, for time, after one seed had been seen, and the plates and the height
 after all had been (FINDINGS); no tolerance was touched.
 """
 import math
@@ -23,20 +24,15 @@ from typing import NamedTuple
 
 import numpy
 
-from case import Row, over_seeds
+from case import Row, over_seeds, told
 
 from . import incline
 
 TITLE = "plane shear"
-FINDINGS = """In a first set of runs the plates were of grains as wide as the beads, 0.75 diameters apart, and twelve
-diameters from each other; strengths lay 0.02 to 0.04 below the table. Along such plates the bed slips: 24 diameters apart,
-the middle had 0.6 of the shear rate that was asked for. With plates of grains twice as wide it has that of the table.
-Neither a tenth of the tolerance nor beads of one size nor restitution 0.7 changed a strength by more than its scatter.
-LAMMPS agrees, in a cell periodic along all axes (1000 equal spheres, friction 0.5, restitution 0.7, sheared by a strain of
-four at fixed volume; by hand): η = 0.385 and 0.380 at I = 0.017 and 0.011, 0.400 to 0.403 at I = 0.043 to 0.053, where
-Talus has 0.376 to 0.381 at 0.008 and 0.399 to 0.401 at 0.028 to 0.039; μ = 0.435 to 0.443 at 0.101 to 0.106, where Talus
-has 0.423 to 0.426 at 0.09. The incline is weaker by 0.016 than plane shear at its inertial number; it is twelve diameters
-deep, and a deeper one was not run."""
+FINDINGS = """Plates of grains as wide as the beads, which a first set of runs had, let the bed slip, and strengths
+were too low. A tenth of the tolerance, beads of one size, restitution 0.7 change little, as the last rows have it. The
+incline is a little weaker than plane shear at its inertial number; it is twelve diameters deep, and a deeper one was
+not run."""
 DIAMETER, DENSITY, PRESSURE, HEIGHT = 0.01, 2500.0, 1000.0, 0.24  # as in scenes/plane_shear.toml
 PRESSED = 0.5  # s, when the load is there
 SLOW, FAST = (0.01, 0.04), (0.1, 0.2)  # inertial numbers that are aimed at
@@ -45,6 +41,7 @@ STRAINS = {0.01: (0.8, 2.4), 0.04: (2, 6)}  # from when to when; of faster ones 
 STRENGTHS = {0.0: 0.105, 0.1: 0.268, 0.3: 0.357, 0.5: 0.382, 1.0: 0.405}
 FRACTIONS = {0.0: 0.636, 0.1: 0.613, 0.3: 0.596, 0.5: 0.587, 1.0: 0.581}
 BESIDE = 24  # degrees of the incline whose inertial number lies among these
+CELL_RATE = 0.01  # shear rate in scenes/shear_cell.lammps
 CHIALVO = "Chialvo et al. 2012, from memory"
 
 
@@ -59,16 +56,23 @@ def numbers_of(friction):
     return {0.0: (*SLOW, 0.12), 0.5: (*SLOW, *FAST)}.get(friction, SLOW)
 
 
-def sheared(friction, number):
+def sheared(friction, number, name="", settings=None):
     shear_rate = number * math.sqrt(PRESSURE / DENSITY) / DIAMETER
     begin, end = (PRESSED + strain / shear_rate for strain in STRAINS.get(number, (5, 15)))
-    return over_seeds(f"shear_{friction:g}_{number:g}", "plane_shear", {
+    return over_seeds(f"shear_{friction:g}_{number:g}{name and '_' + name}", "plane_shear", {
         "contact.0.friction": friction, "wall.floor.motion.0.velocity": f"[{shear_rate * HEIGHT:.5f}, 0, 0]",
-        "time.duration": end, "sensor.middle.from": begin, "sensor.shear.from": begin})
+        "time.duration": end, "sensor.middle.from": begin, "sensor.shear.from": begin, **(settings or {})})
 
 
+OTHERS = {"a tenth of the tolerance": ("tolerance", {"solver.tolerance": 6e-4}),
+          "beads of one size": ("one_size", {"fill.0.diameter.min": DIAMETER, "fill.0.diameter.max": DIAMETER}),
+          "restitution 0.7": ("restitution", {"contact.0.restitution": 0.7})}  # beside friction 0.5, I = 0.04
 SHEARED = {friction: [sheared(friction, number) for number in numbers_of(friction)] for friction in FRICTIONS}
+CELLS = {fraction: over_seeds(f"shear_cell_{fraction}", "shear_cell.lammps", {"fraction": fraction, "friction": 0.5},
+                              program="lammps") for fraction in (0.585, 0.58)}
 RUNS = [*(run for of_numbers in SHEARED.values() for simulations in of_numbers for run in simulations),
+        *(run for name, settings in OTHERS.values() for run in sheared(0.5, 0.04, name, settings)),
+        *(run for simulations in CELLS.values() for run in simulations),
         *(run for angle in incline.STEADY for run in incline.tilted(angle))]
 
 
@@ -84,6 +88,12 @@ def state(run):
 def states(runs, friction):
     """For each seed, the states by rising inertial number."""
     return [[state(runs[run.name]) for run in of_seed] for of_seed in zip(*SHEARED[friction])]
+
+
+def state_of_cell(run, fraction):
+    """Of LAMMPS, in units of its spheres."""
+    pressure, shear, across = numpy.loadtxt(run.folder / "averages.txt")[:, 1:4].mean(axis=0)
+    return State(CELL_RATE / math.sqrt(across), -shear / across, -shear / pressure, fraction)
 
 
 def limit(numbers, values, friction):
@@ -108,6 +118,12 @@ def judge(runs):
     yield Row("friction 0.5: dφ/dI", "−0.2 (Pouliquen et al. 2006, from memory)", "−0.4 to −0.1", -0.4, -0.1,
               tuple(float(numpy.polyfit([one.inertial_number for one in seed], [one.fraction for one in seed], 1)[0])
                     for seed in found[0.5]))
+    for fraction, simulations in CELLS.items():
+        cells = [state_of_cell(runs[run.name], fraction) for run in simulations]
+        number, eta = (float(numpy.mean([getattr(cell, field) for cell in cells])) for field in ("inertial_number", "eta"))
+        yield Row(f"friction 0.5, I = {number:.2g}: η", f"{eta:.4f} (LAMMPS)", "± 0.02", eta - 0.02, eta + 0.02, tuple(
+            float(numpy.interp(number, [one.inertial_number for one in seed], [one.eta for one in seed]))
+            for seed in found[0.5]))
     flows = [incline.flow(runs[run.name], BESIDE) for run in incline.tilted(BESIDE)]
     for what, own, field, margin in (("tan θ", lambda flow: math.tan(math.radians(BESIDE)), "mu", 0.02),
                                      ("solid fraction", lambda flow: flow.fraction, "fraction", 0.01)):
@@ -116,6 +132,10 @@ def judge(runs):
                                                                [one.inertial_number for one in seed],
                                                                [getattr(one, field) for one in seed]))
                                 for flow, seed in zip(flows, found[0.5])))
+    yield told("friction 0.5, I = 0.04: η", (seed[1].eta for seed in found[0.5]))
+    for what, (name, settings) in OTHERS.items():
+        yield told(f"the same with {what}",
+                   (state(runs[run.name]).eta for run in sheared(0.5, 0.04, name, settings)))
 
 
 def draw(figure, runs):

@@ -7,8 +7,7 @@ compared with experiments, begin with the same beads and walls: decks that `talu
 Parameters: Debian's LAMMPS (29 Sep 2021) and LIGGGHTS 3.8, a step of a fifth of Rayleigh's time, E as `talus export`
 chooses it: 500 times the pressure of the bed, or 5e6 Pa. Beads of 10 mm ± 5 %, friction and restitution 0.5.
 - hopper: the supplied scene with 4000 beads, open after 0.8 s; beads a second from 1.0 to 1.8 s.
-- pile: scenes/funnel_pile.toml, 3000 beads, at 4 s; the line through ring means of the highest tops. Two
-  seeds, of LAMMPS one, for their time.
+- pile: scenes/funnel_pile.toml, 3000 beads, at 4 s; the line through ring means of the highest tops.
 - drum: the supplied scene with 1300 beads of 10 mm in a drum 24 of them wide and five deep, at a Froude number of 0.01;
   the line through the highest tops in the middle half of the surface, mean over 1.5 to 3 s.
 
@@ -19,7 +18,7 @@ import math
 
 import numpy
 
-from case import SEEDS, Row, mean_and_error, over_seeds
+from case import Row, mean_and_error, over_seeds
 from deck import spheres_of
 from measures import mean_of_highest
 from page import with_error
@@ -32,7 +31,6 @@ CODES = {"": "Talus", "lammps": "LAMMPS", "liggghts": "LIGGGHTS"}
 FLOWING = (1.0, 1.8)  # s
 TURNING = (1.5, 3.0)  # s
 DRUM = 0.12  # radius, m
-PILES = {"": 2, "lammps": 1, "liggghts": 2}  # how many there was time for
 SCENES = {
     "hopper": ("hopper", {"fill.0.count": 4000, "time.duration": FLOWING[1]}),
     # A room no larger than it must be: LAMMPS and LIGGGHTS clear all its cells whenever they list neighbours anew.
@@ -51,8 +49,7 @@ SCENES = {
 
 def simulations(what, code):
     scene, settings = SCENES[what]
-    seeds = SEEDS[:PILES[code]] if what == "pile" else SEEDS
-    return over_seeds(f"same_{what}{code and '_' + code}", scene, settings, seeds, code)
+    return over_seeds(f"same_{what}{code and '_' + code}", scene, settings, program=code)
 
 
 RUNS = [run for what in SCENES for code in CODES for run in simulations(what, code)]
