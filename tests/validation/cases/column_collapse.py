@@ -203,7 +203,8 @@ def judge(runs):
 
 
 def draw(figure, runs):
-    left, right = figure.subplots(1, 2)
+    left, right, below = figure.subplot_mosaic([["run-out", "height"], ["legend", "legend"]],
+                                               height_ratios=[3, 1]).values()
     for shape, mark, label in ((SLOT, "C0.", "slot, l = 32 d"), (COARSE_SLOT, "C0+", "slot, l = 16 d"),
                                (ROUND, "C3+", "round, l = 16 d"), (FINE_ROUND, "C3.", "round, l = 32 d")):
         collapses = [one for seed in by_seed(runs, shape) for one in seed]
@@ -219,8 +220,11 @@ def draw(figure, runs):
     low, high = numpy.array([0.4, 7]), numpy.array([7, 10])
     left.plot(numpy.append(low, high), numpy.append(2.2 * low, 3.9 * high**0.7), "C0:", linewidth=1,
               label="slot without side walls, μ(I), Lagrée et al. 2011")
-    right.plot(both, 0.88 * both ** (1 / 6), "C3", linewidth=1, label="round, high, Lube et al. 2004")
+    right.plot(both, 0.88 * both ** (1 / 6), "C3", linewidth=1)
     right.plot(both, both, "k:", linewidth=1, label="as it stood")
     for axes, label, limits in ((left, "run-out / l", (0.3, 30)), (right, "height / l", (0.3, 12))):
         axes.set(xscale="log", yscale="log", xlabel="aspect ratio", ylabel=label, ylim=limits)
-        axes.legend(fontsize="x-small", loc="upper left")
+    below.axis("off")
+    below.legend(*(left_part + right_part for left_part, right_part in
+                   zip(left.get_legend_handles_labels(), right.get_legend_handles_labels())),
+                 fontsize="x-small", loc="center", ncols=2)
