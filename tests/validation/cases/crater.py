@@ -26,10 +26,10 @@ from measures import mean_of_highest, volumes
 
 TITLE = "impact crater"
 FINDINGS = """What the formula misses is the size of the grains: on beads half as wide, where balls are 10 and 16 of
-them wide, each comes to lie some 8 mm deeper, so that the shallow ones, which are light or small, gain most; depths
-are those of the formula then, and the powers of density and diameter fall towards it. In the bed of 0.611 that a first
-set of runs had, depths were a quarter less. Carvalho, Lima & Franklin 2023 (Phys. Rev. E 107, 044901) trace the
-different scaling laws of the literature to the packing."""
+them wide, each comes to lie deeper, the shallow ones, which are light or small, by more in proportion; depths are
+those of the formula then, and the powers of density and diameter fall towards it. In the bed of 0.611 that a first set
+of runs had, depths were a fifth less. Carvalho, Lima & Franklin 2023 (Phys. Rev. E 107, 044901) trace the different
+scaling laws of the literature to the packing."""
 GRAVITY, DIAMETER, BULK_DENSITY = 9.81, 0.005, 1500.0  # of beads and bed
 FLIGHT = 0.08  # s, until the ball lands
 BED, WIDTH = 0.1, 0.15  # height and width, m
@@ -61,8 +61,8 @@ def finer(drop):
 
 
 BY_DENSITY, BY_DIAMETER = {rho: (BASE[0], rho, BASE[2]) for rho in DENSITIES}, {d: (*BASE[:2], d) for d in DIAMETERS}
-RUNS = [*(run for drop in DROPS for run in simulations(drop)),
-        *(run for drop in sorted({*BY_DENSITY.values(), *BY_DIAMETER.values()}) for run in finer(drop))]
+FINER = sorted({*BY_DENSITY.values(), *BY_DIAMETER.values()})
+RUNS = [*(run for drop in DROPS for run in simulations(drop)), *(run for drop in FINER for run in finer(drop))]
 
 
 def surface(spheres):
@@ -123,10 +123,11 @@ def judge(runs):
     ratios = [depth / uehara(drop, whole) for drop in DROPS for depth, whole in [found(runs, drop)]]
     yield Row("depth / that of the formula", "1 (Uehara et al. 2003, 0.14 from memory)", "0.7 to 1.4", 0.7, 1.4,
               tuple(map(float, numpy.mean(ratios, axis=0))))
-    for what, of in (("", simulations), (", on beads half as wide (one run)", finer)):
-        depth, whole = found(runs, BASE, of)
-        yield told(f"ball of 2500 kg/m³ that falls 0.15 m{what}: depth / that of the formula",
-                   depth / uehara(BASE, whole))
+    for drop in FINER:
+        for what, of in (("", simulations), (", on beads half as wide (one run)", finer)):
+            depth, whole = found(runs, drop, of)
+            yield told(f"ball of {drop[1]:g} kg/m³ and {1000 * drop[2]:g} mm that falls {drop[0]} m{what}: depth / that of the "
+                       "formula", depth / uehara(drop, whole))
     yield told("solid fraction of the bed", (fraction(runs[run.name]) for run in simulations(BASE)))
 
 
@@ -147,7 +148,7 @@ def draw(figure, runs):
             depth, whole = found(runs, drop)
             right.plot(1000 * uehara(drop, whole), 1000 * depth, f"C{k}{'os^'[k]}", markersize=4,
                        markerfacecolor="none", label=label if n == 0 else None)
-    for n, drop in enumerate({*BY_DENSITY.values(), *BY_DIAMETER.values()}):
+    for n, drop in enumerate(FINER):
         depth, whole = found(runs, drop, finer)
         right.plot(1000 * uehara(drop, whole), 1000 * depth, "k.", label="beads half as wide" if n == 0 else None)
     ends = numpy.array([0, right.get_xlim()[1]])
