@@ -26,10 +26,11 @@ import numpy
 from case import Row, over_seeds, told
 
 TITLE = "clogging"
-FINDINGS = """All means lie below the law, by a factor of two to three and a half. At 3.5 d many runs clog
-before the 25th bead, where of an exponential distribution with their mean one in twelve would: below beads at rest the outlet clogs
-at once more often than when they flow. The avalanches of the law begin when a jet of air breaks an arch. Whether that is
-why, a bottom that is shaken for a moment after the opening would tell: not tried. The runs are few and short."""
+FINDINGS = """All means lie below the law, by a factor of two to three and a half. At 3.5 d many runs clog before the
+25th bead, where of an exponential distribution with their mean one in twelve would: below beads at rest the outlet
+clogs at once more often than when they flow. The avalanches of the law begin when a jet of air breaks an arch. Whether
+that is why, a bottom that is shaken for a moment after the opening would tell: not tried. The runs are few and
+short."""
 STILL = 1.0  # s without a bead at the end of a run that has clogged
 A, CRITICAL, EXPONENT = 9900, 4.94, 6.9  # of Zuriguel et al. 2005
 

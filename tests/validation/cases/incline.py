@@ -9,11 +9,12 @@ at all depths too, I = 3/2 A d/√(φ g cos θ) for u = A (h^{3/2} − (h − z)
     tan θ = μ(I) = μ_s + (μ_2 − μ_s)/(I0/I + 1)    (Jop, Forterre & Pouliquen 2006, Nature 441, 727)
 
 with μ_s = 0.382, μ_2 = 0.643, I0 = 0.279 for glass beads; the same constants stand in the examples of Basilisk by
-Lagrée, Staron & Popinet (2011, J. Fluid Mech. 686, 378). By depth ū/√(g h) = β h/h_stop(θ) (Pouliquen 1999, Phys. Fluids
-11, 542), h_stop/d = B (tan θ2 − tan θ)/(tan θ − tan θ1); of spheres like these θ1 = 17.6°, θ2 = 32.3°, B = 3.8, β = 0.19
-(Weinhart, Thornton, Luding & Bokhove 2012, Granular Matter 14, 531; from memory).
+Lagrée, Staron & Popinet (2011, J. Fluid Mech. 686, 378). By depth ū/√(g h) = β h/h_stop(θ) (Pouliquen 1999, Phys.
+Fluids 11, 542), h_stop/d = B (tan θ2 − tan θ)/(tan θ − tan θ1); of spheres like these θ1 = 17.6°, θ2 = 32.3°, B = 3.8,
+β = 0.19 (Weinhart, Thornton, Luding & Bokhove 2012, Granular Matter 14, 531; from memory).
 
-Parameters: beads ± 5 %, 12 diameters deep, cell 12 × 8 diameters. For 5 s, averaged over the last 2; at 15° for 4 s, at 28° for 10.
+Parameters: beads ± 5 %, 12 diameters deep, cell 12 × 8 diameters. For 5 s, averaged over the last 2; at 15° for 4 s,
+at 28° for 10.
 
 Tolerances, fixed before the runs:
 - 15°: mean speed at the end up to 1e-3 √(g d). 33°: acceleration above 0.02 g sin θ. 24 and 28°: 0 ± 0.02 g sin θ.
@@ -30,8 +31,8 @@ from case import Row, over_seeds, told
 from measures import volumes
 
 TITLE = "rough incline"
-FINDINGS = """At 28° the flow gains speed for more than five seconds; from the eighth to the tenth it is steady. At both slopes spheres of friction 0.5 are a little weaker than
-glass beads."""
+FINDINGS = """At 28° the flow gains speed for more than five seconds; from the eighth to the tenth it is steady. At
+both slopes spheres of friction 0.5 are a little weaker than glass beads."""
 GRAVITY, DIAMETER, AREA = 9.81, 0.01, 0.12 * 0.08  # as in scenes/rough_incline.toml
 TIMES = {15: (3.0, 4.0), 24: (3.0, 5.0), 28: (8.0, 10.0), 33: (3.0, 5.0)}  # from when to when, s
 STEADY = (24, 28)  # degrees

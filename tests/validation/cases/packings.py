@@ -6,8 +6,8 @@ packing; with friction fewer contacts hold it, 4 at least, in a looser packing (
 
 Parameters: 2000 beads ± 5 % without gravity between two rough plates, periodic sideways, brought together slowly,
 pressed by 280 Pa until they rest, 6 s (scenes/compressed.toml lets go after half a second). Solid fraction, and
-coordination of the beads with two contacts or more, of what is more than three layers from the plates. Besides, without friction, the same beads poured
-under gravity below a lid that is held.
+coordination of the beads with two contacts or more, of what is more than three layers from the plates. Besides,
+without friction, the same beads poured under gravity below a lid that is held.
 
 References and tolerances, fixed before the runs:
 - friction 0: 0.6366 (Scott & Kilgour 1969, J. Phys. D 2, 863), ± 0.01 for a width of twelve diameters and sizes ± 5 %;
@@ -21,11 +21,11 @@ import math
 from case import SEEDS, Row, over_seeds, told
 
 TITLE = "packings"
-FINDINGS = """What creeps shakes, so that at any moment some contacts carry nothing and are not counted: at the end of the
-first second under the load coordination is lower, as the last rows have it, and only at rest what is published. With friction 10
-packings are denser than Silbert's, just too much: how dense a packing is depends on how it is made, which was not varied
-here. The excess of the poured beads over 6 contacts is about one standard error. The relation of Song, Wang & Makse fails
-where the coordination is low."""
+FINDINGS = """What creeps shakes, so that at any moment some contacts carry nothing and are not counted: at the end of
+the first second under the load coordination is lower, as the last rows have it, and only at rest what is published.
+With friction 10 packings are denser than Silbert's, just too much: how dense a packing is depends on how it is made,
+which was not varied here. The excess of the poured beads over 6 contacts is about one standard error. The relation of
+Song, Wang & Makse fails where the coordination is low."""
 FRICTIONS = (0.0, 0.01, 0.1, 0.3, 1.0, 10.0)
 CLOSE, LOOSE = "Scott & Kilgour 1969", "Agnolin & Roux 2007"
 SILBERT = "Silbert 2010, from memory"

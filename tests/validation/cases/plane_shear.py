@@ -2,22 +2,23 @@
 """8, second part. Plane shear at constant pressure: strength and density when slow; μ(I) and φ(I); the incline beside it.
 
 Laws: sheared slowly, beads have a strength η = τ/p, p the mean of the normal stresses, and a solid fraction φ_c that
-depend on their friction alone (Chialvo, Sun & Sundaresan 2012, Phys. Rev. E 85, 021305); without friction tan 5.76° and
-the random close packing, both reached as powers of the inertial number I = γ̇ d √(ρ/P) (Peyneau & Roux 2008, Phys. Rev. E
-78, 011307). Faster, μ = τ/P, P across the plane, rises as μ(I) of Jop, Forterre & Pouliquen 2006 and φ falls, in a
-straight line (Pouliquen, Cassar, Jop, Forterre & Nicolas 2006, J. Stat. Mech. P07020: −0.2 I, from memory). What is
-sheared by its weight on the incline of incline.py has the same μ and φ at the same I: the rheology is local.
+depend on their friction alone (Chialvo, Sun & Sundaresan 2012, Phys. Rev. E 85, 021305); without friction tan 5.76°
+and the random close packing, both reached as powers of the inertial number I = γ̇ d √(ρ/P) (Peyneau & Roux 2008, Phys.
+Rev. E 78, 011307). Faster, μ = τ/P, P across the plane, rises as μ(I) of Jop, Forterre & Pouliquen 2006 and φ falls,
+in a straight line (Pouliquen, Cassar, Jop, Forterre & Nicolas 2006, J. Stat. Mech. P07020: −0.2 I, from memory). What
+is sheared by its weight on the incline of incline.py has the same μ and φ at the same I: the rheology is local.
 
-Parameters: 2200 beads ± 5 % between plates of grains twice as wide, on periodic axes, 10 × 8 × 24 diameters, 1000 Pa, no
-gravity, restitution 0. I of about 0.01 and 0.04 for each friction, 0.12 too without friction, 0.1 and 0.2 too with 0.5.
-Averages without six layers at each plate, of strains of 1.6 and more after half as much. The limit I → 0 is a straight
-line through I = 0.01 and 0.04; without friction it is one in I^0.38 (Peyneau & Roux, from memory), through three points.
+Parameters: 2200 beads ± 5 % between plates of grains twice as wide, on periodic axes, 10 × 8 × 24 diameters, 1000 Pa,
+no gravity, restitution 0. I of about 0.01 and 0.04 for each friction, 0.12 too without friction, 0.1 and 0.2 too with
+0.5. Averages without six layers at each plate, of strains of 1.6 and more after half as much. The limit I → 0 is a
+straight line through I = 0.01 and 0.04; without friction it is one in I^0.38 (Peyneau & Roux, from memory), through
+three points.
 
-Tolerances, fixed before the runs: η ± 0.02 and φ_c ± 0.015, since Chialvo's table was quoted from memory and is of beads
-of one size; μ(I) of glass beads ± 0.04; slope of φ(I) from −0.4 to −0.1. Incline of 24° less plane shear:
-μ ± 0.02, φ ± 0.01. The cell of LAMMPS, periodic along all axes (scenes/shear_cell.lammps: 1000 equal spheres, restitution
-0.7), came afterwards, with the same tolerance. The slow rates were chosen anew, for time, after one seed had been seen, and the plates and the height
-after all had been (FINDINGS); no tolerance was touched.
+Tolerances, fixed before the runs: η ± 0.02 and φ_c ± 0.015, since Chialvo's table was quoted from memory and is of
+beads of one size; μ(I) of glass beads ± 0.04; slope of φ(I) from −0.4 to −0.1. Incline of 24° less plane shear: μ ±
+0.02, φ ± 0.01. The cell of LAMMPS, periodic along all axes (scenes/shear_cell.lammps: 1000 equal spheres, restitution
+0.7), came afterwards, with the same tolerance. The slow rates were chosen anew, for time, after one seed had been
+seen, and the plates and the height after all had been (FINDINGS); no tolerance was touched.
 """
 import math
 from typing import NamedTuple

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """15. The round robin of Dosta et al.: the penetration test.
 
-Dosta et al. 2024 (Comput. Phys. Commun. 296, 109066) ran a silo, a drum and a penetration test in eight open codes. What
-can be had of it without their files: the scripts of Yade (examples/DEM2020Benchmark) and MercuryDPM (OSPenetration.cpp)
-have all materials, and the whole of the penetration test but the places of its beads. Walls of silo and drum, and the
-beads' places, are files of their servers and of Zenodo (8252892), as are the curves of the eight codes (also in
-github.com/weinhart/dem_benchmark_plots, as spreadsheets); none could be had here. So silo and drum are left out, and the
-penetration test is compared with LIGGGHTS, one of the eight, which begins with the same beads as Talus.
+Dosta et al. 2024 (Comput. Phys. Commun. 296, 109066) ran a silo, a drum and a penetration test in eight open codes.
+What can be had of it without their files: the scripts of Yade (examples/DEM2020Benchmark) and MercuryDPM
+(OSPenetration.cpp) have all materials, and the whole of the penetration test but the places of its beads. Walls of
+silo and drum, and the beads' places, are files of their servers and of Zenodo (8252892), as are the curves of the
+eight codes (also in github.com/weinhart/dem_benchmark_plots, as spreadsheets); none could be had here. So silo and
+drum are left out, and the penetration test is compared with LIGGGHTS, one of the eight, which begins with the same
+beads as Talus.
 
 Parameters: 25 000 beads of 2 mm (M1: 2500 kg/m³, friction 0.3, restitution 0.5; at steel 0.2 and 0.4) in a steel box of
 0.1 m × 0.06 m; a steel ball of 20 mm (7200 kg/m³) starts 0.15 m above the floor at 5 m/s downwards; 0.1 s. The bed is
@@ -25,13 +26,13 @@ from measures import mean_of_highest
 from page import number
 
 TITLE = "the round robin of Dosta et al. 2024"
-FINDINGS = """The ball goes down through the bed as in LIGGGHTS, and comes back more slowly from the beads that lie on the
-floor, 2900 times lighter than itself. That is the law of restitution: sent at one such bead on the floor, e = 0.4, it comes
-back by Newton's law in Talus; in LIGGGHTS with nearly all of its speed at the 1e9 Pa of the round robin, for a contact is
-damped there by the mass of the light bead, and with less at 5e7 Pa, where the ball comes to the floor through the bead. In
-Talus too the bead gives way, by design (contacts yield from an eighth of the smallest diameter on), and with the automatic
-step by almost its diameter. Which of the two an experiment would have is open; the curves of the eight codes could not be
-had."""
+FINDINGS = """The ball goes down through the bed as in LIGGGHTS, and comes back more slowly from the beads that lie on
+the floor, 2900 times lighter than itself. That is the law of restitution: sent at one such bead on the floor, e = 0.4,
+it comes back by Newton's law in Talus; in LIGGGHTS with nearly all of its speed at the 1e9 Pa of the round robin, for
+a contact is damped there by the mass of the light bead, and with less at 5e7 Pa, where the ball comes to the floor
+through the bead. In Talus too the bead gives way, by design (contacts yield from an eighth of the smallest diameter
+on), and with the automatic step by almost its diameter. Which of the two an experiment would have is open; the curves
+of the eight codes could not be had."""
 RADIUS, FLOOR, START = 0.01, -0.090243, 0.06  # of the ball, m
 OURS = over_seeds("penetration", "penetration")
 THEIRS = over_seeds("penetration_liggghts", "penetration", seeds=(1,), program="liggghts", modulus="5e7")

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """14. Segregation: a large sphere rises in a bed that is shaken up and down, and how fast.
 
-Law: large spheres come to the top (Rosato, Strandburg, Prinz & Swendsen 1987, Phys. Rev. Lett. 58, 1038). In a box with
-rough walls the beads rise in the middle and go down at the walls (jfi.uchicago.edu/granular/convection.html), and a
-large sphere rises with those around it, as fast as these whatever its size, but does not go down again (Knight, Jaeger &
-Nagel 1993, Phys. Rev. Lett. 70, 3728; both quoted from memory).
+Law: large spheres come to the top (Rosato, Strandburg, Prinz & Swendsen 1987, Phys. Rev. Lett. 58, 1038). In a box
+with rough walls the beads rise in the middle and go down at the walls (jfi.uchicago.edu/granular/convection.html), and
+a large sphere rises with those around it, as fast as these whatever its size, but does not go down again (Knight,
+Jaeger & Nagel 1993, Phys. Rev. Lett. 70, 3728; both quoted from memory).
 
-Parameters: 1150 beads of 5 mm ± 5 %, friction 0.5 between them and at the walls, restitution 0.5, ten deep in a box ten
-wide; a sphere of the same stuff, 3 or 2 beads in diameter, begins at the bottom. Shaken 15 times a second with 3.5 times
-the acceleration of gravity for 8 s, 120 periods. The same in LIGGGHTS, with the deck of `talus export`; that and the
-smaller sphere with one seed, for their time; and with stiffer beads, of 2e7 Pa.
+Parameters: 1150 beads of 5 mm ± 5 %, friction 0.5 between them and at the walls, restitution 0.5, ten deep in a box
+ten wide; a sphere of the same stuff, 3 or 2 beads in diameter, begins at the bottom. Shaken 15 times a second with 3.5
+times the acceleration of gravity for 8 s, 120 periods. The same in LIGGGHTS, with the deck of `talus export`; that and
+the smaller sphere with one seed, for their time; and with stiffer beads, of 2e7 Pa.
 
 Tolerances, fixed before the runs:
 - at the end 0.8 to 1 of the beads are below the centre of the large sphere.
@@ -26,9 +26,9 @@ from case import SEEDS, Row, over_seeds, told
 from deck import spheres_of
 
 TITLE = "segregation"
-FINDINGS = """The rise in LIGGGHTS is twice as fast because its beads are soft there, 5e6 Pa as `talus export` has it: with
-stiffer ones the beads at the axis rise more slowly, as the last rows have it, and slowest in
-Talus, whose contacts are rigid. LIGGGHTS with still stiffer beads was not run."""
+FINDINGS = """The rise in LIGGGHTS is twice as fast because its beads are soft there, 5e6 Pa as `talus export` has it:
+with stiffer ones the beads at the axis rise more slowly, as the last rows have it, and slowest in Talus, whose
+contacts are rigid. LIGGGHTS with still stiffer beads was not run."""
 SHAKEN = 0.3  # s, from when on
 RISEN = 0.8  # share of the beads that are below
 
