@@ -16,12 +16,12 @@ from types import SimpleNamespace
 import numpy
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).resolve().parents[2] / "postprocess")]
-from case import Row  # noqa: E402  found by the line above
+from case import Row, told  # noqa: E402  found by the line above
 from cases import (beverloo, chung_ooi, clogging, column_collapse, conical_hopper, crater, drum,  # noqa: E402
                    force_distribution, granular_gas, incline, janssen, packings, plane_shear, repose, same_scene,
                    segregation)
 from deck import DeckRun  # noqa: E402
-from page import with_error  # noqa: E402
+from page import verdict_of, with_error  # noqa: E402
 
 
 class Analysis(unittest.TestCase):
@@ -203,6 +203,12 @@ class Page(unittest.TestCase):
         self.assertTrue(row.within)
         self.assertFalse(row._replace(high=22.4).within)
         self.assertAlmostEqual(row.standard_error, 1.607, places=3)
+
+    def test_a_row_that_is_only_told_is_not_counted(self):
+        rows = [Row("angle", "22", "± 1", 21.0, 23.0, (25.5,)), told("speed", (numpy.float64(1.5), 2))]
+        self.assertIsNone(rows[1].within)
+        self.assertEqual(verdict_of({"drum": {"rows": [{"within": row.within} for row in rows]}}),
+                         "Of 1 quantities 0 are within their tolerance; 1 are **outside**.")
 
     def test_digits_follow_the_error(self):
         self.assertEqual(with_error(0.96663, 0.0051), "0.9666 ± 0.0051")
