@@ -58,6 +58,7 @@ class Shape(NamedTuple):
     scene: str
     diameter: float  # of the beads [m]
     count: int  # of the beads, for an aspect ratio of 1
+    aspects: tuple[float, ...]
     settings: dict[str, object] = {}  # where beads are not those of the scene
 
 
@@ -67,14 +68,12 @@ def of_beads(diameter, **settings):
             "wall.ground.point": f"[0, 0, {-diameter}]", **settings}
 
 
-SLOT = Shape("slot", "slot_collapse", 0.0025, 4960)
-ROUND = Shape("round", "quarter_collapse", 0.005, 3550)
-COARSE_SLOT = Shape("coarse_slot", "slot_collapse", 0.005, 1240, of_beads(0.005, **{
+SLOT = Shape("slot", "slot_collapse", 0.0025, 4960, (0.5, 1, 2, 4, 8))
+ROUND = Shape("round", "quarter_collapse", 0.005, 3550, (0.5, 1, 2, 4, 8))
+COARSE_SLOT = Shape("coarse_slot", "slot_collapse", 0.005, 1240, (0.5, 1, 2), of_beads(0.005, **{
     "world.max": "[inf, 0.022, inf]", "wall.bed.min": "[-0.005, 0, -0.0025]", "wall.bed.max": "[1.2, 0.022, -0.0025]"}))
-FINE_ROUND = Shape("fine_round", "quarter_collapse", 0.0025, 28400, of_beads(0.0025, **{
+FINE_ROUND = Shape("fine_round", "quarter_collapse", 0.0025, 28400, (0.5, 1), of_beads(0.0025, **{
     "wall.bed.min": "[-0.005, -0.005, -0.00125]", "wall.bed.max": "[0.4, 0.4, -0.00125]"}))
-ASPECTS = {SLOT.name: (0.5, 1, 2, 4, 8), COARSE_SLOT.name: (0.5, 1, 2), ROUND.name: (0.5, 1, 2, 4, 8),
-           FINE_ROUND.name: (0.5, 1)}
 
 
 class Collapse(NamedTuple):
@@ -104,7 +103,7 @@ def collapse(shape, aspect):
         "time.duration": RELEASE + times * math.sqrt(aspect * LENGTH / GRAVITY), **shape.settings})
 
 
-COLUMNS = {shape.name: [collapse(shape, aspect) for aspect in ASPECTS[shape.name]]
+COLUMNS = {shape.name: [collapse(shape, aspect) for aspect in shape.aspects]
            for shape in (SLOT, COARSE_SLOT, ROUND, FINE_ROUND)}
 RUNS = [run for columns in COLUMNS.values() for simulations in columns for run in simulations]
 
@@ -230,6 +229,5 @@ def draw(figure, runs):
     for axes, label, limits in ((left, "run-out / l", (0.3, 30)), (right, "height / l", (0.3, 12))):
         axes.set(xscale="log", yscale="log", xlabel="aspect ratio", ylabel=label, ylim=limits)
     below.axis("off")
-    below.legend(*(left_part + right_part for left_part, right_part in
-                   zip(left.get_legend_handles_labels(), right.get_legend_handles_labels())),
+    below.legend(handles=[handle for axes in (left, right) for handle in axes.get_legend_handles_labels()[0]],
                  fontsize="x-small", loc="center", ncols=2)

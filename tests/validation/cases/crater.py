@@ -30,7 +30,7 @@ them wide, each comes to lie deeper, the shallow ones, which are light or small,
 those of the formula then, and the powers of density and diameter fall towards it. In the bed of 0.611 that a first set
 of runs had, depths were a fifth less. Carvalho, Lima & Franklin 2023 (Phys. Rev. E 107, 044901) trace the different
 scaling laws of the literature to the packing."""
-GRAVITY, DIAMETER, BULK_DENSITY = 9.81, 0.005, 1500.0  # of beads and bed
+GRAVITY, BULK_DENSITY = 9.81, 1500.0  # of the bed
 FLIGHT = 0.08  # s, until the ball lands
 BED, WIDTH = 0.1, 0.15  # height and width, m
 REPOSE = math.tan(math.radians(22))
@@ -73,10 +73,15 @@ def surface(spheres):
     return mean_of_highest((z + spheres.radii[1:])[far], *(numpy.floor(place[far] / cell) for place in (x, y)))
 
 
+def before_impact(frames):
+    """The last frame before the ball lands."""
+    return min(frames, key=lambda spheres: abs(spheres.time - (FLIGHT - 0.005)))
+
+
 def track(run, drop):
     """Times [s] and depths [m] of the ball's lowest point below the surface as it is before the impact."""
     frames = spheres_of(run)
-    level = surface(min(frames, key=lambda spheres: abs(spheres.time - (FLIGHT - 0.005))))
+    level = surface(before_impact(frames))
     return (numpy.array([spheres.time for spheres in frames]),
             numpy.array([level - (spheres.positions[0, 2] - drop[2] / 2) for spheres in frames]))
 
@@ -94,7 +99,7 @@ def uehara(drop, whole):
 
 def fraction(run):
     """Of solid, between a fifth and three fifths of the bed's height before the impact, by the centres."""
-    spheres = min(spheres_of(run), key=lambda spheres: abs(spheres.time - (FLIGHT - 0.005)))
+    spheres = before_impact(spheres_of(run))
     z = spheres.positions[1:, 2]
     inside = (z > 0.2 * BED) & (z < 0.6 * BED)
     return volumes(spheres.radii[1:][inside]).sum() / (0.4 * BED * WIDTH**2)

@@ -72,8 +72,6 @@ def judge(runs):
     mean = numpy.mean([numpy.interp(times, time, low) for time, low, _ in theirs], axis=0)
     yield Row("penetration: mean difference of the ball's height [mm]", "0 (LIGGGHTS)", "4", 0, 4, tuple(
         1000 * float(numpy.mean(abs(numpy.interp(times, time, low) - mean))) for time, low, _ in ours))
-
-
     for name, simulations in ALONE.items():
         yield told(f"a ball sent with {SENT} m/s at one bead on the floor: speed with which it comes back [m/s], {name}",
                    (rebound(runs[run.name]) for run in simulations), f"{0.4 * SENT:.2f} (Newton)")
