@@ -244,7 +244,9 @@ std::string deck_room(const DeckBasis& basis)
             "region room {} units box\ncreate_box {} room\n", box_words(basis.box), basis.types.material.size());
     else
         text += fmt::format("read_data {}\n", spheres_file);
-    text += fmt::format("neighbor {:.4g} bin\nneigh_modify delay 0{}\n", 0.2 * model.mean_diameter,
+    // Lists take long where a sphere reaches over many: there they are made to last.
+    const double skin = std::clamp(0.1 * model.max_diameter, 0.2 * model.mean_diameter, model.mean_diameter);
+    text += fmt::format("neighbor {:.4g} bin\nneigh_modify delay 0{}\n", skin,
         model.max_diameter > 3.0 * model.min_diameter ? " page 2000000 one 20000" : "");
     text += fmt::format("\nvariable modulus index {:.4g}\n"
                         "variable step equal 0.2*PI*{:.6g}*sqrt({:.6g}*2*(1+{})/${{modulus}})/(0.1631*{}+0.8766)\n"

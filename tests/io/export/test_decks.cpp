@@ -155,6 +155,15 @@ TEST_CASE("the data file has every sphere, and grains of walls as types of their
     CHECK_THAT(built.liggghts().text, Contains("neigh_modify exclude type 2 2"));
 }
 
+TEST_CASE("lists of neighbours last where a sphere reaches over many", "[export]")
+{
+    CHECK_THAT(Built(one_bead("")).lammps().text, Contains("\nneighbor 0.002 bin\n")); // a fifth of a diameter
+    const Built ball(one_bead("[[fill]]\nmaterial = \"glass\"\ncount = 200\ndiameter = 0.001\n"
+                              "region = { shape = \"box\", min = [-0.02, -0.02, 0], max = [0.02, 0.02, 0.02] }\n"));
+    CHECK_THAT(ball.lammps().text, Contains("\nneighbor 0.001 bin\n")); // a tenth of the ball
+    CHECK_THAT(ball.liggghts().text, Contains("\nneighbor 0.001 bin\n"));
+}
+
 TEST_CASE("a gate is there until its time in both decks", "[export]")
 {
     const Built built(poured);
