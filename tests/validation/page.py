@@ -18,9 +18,9 @@ parameters and sources, and why its tolerance is what it is. Values are the mean
 told, ± its standard error, and are within their tolerance where the mean is; one without an error is of one run. Rows
 without a tolerance are for information. Tolerances were written down before the runs, but where the docstring says
 other. References "from memory" were not read again: their tolerances are wide for that. Seconds are those of the
-processor, of all runs of a case; cases may share runs.
+processor, of all runs of a case; cases may share runs, and two are made at a time.
 
-{verdict}{missing}
+{verdict} All {runs} runs took {seconds:.0f} seconds.{missing}
 """
 VERDICTS = {True: "within", False: "**outside**", None: ""}
 
@@ -63,18 +63,21 @@ def section(name, case, module, seeds):
     lines += ["", f"![{title}](validation/{name}.png)", ""]
     if module.FINDINGS:
         lines += [textwrap.fill(" ".join(module.FINDINGS.split()), 120), ""]
-    lines += [f"{case['runs']} runs, of up to {case['spheres']} spheres: {case['seconds']:.0f} seconds. "
+    seconds = case["seconds"].values()
+    lines += [f"{len(seconds)} runs, of up to {case['spheres']} spheres: {sum(seconds):.0f} seconds. "
               f"Measured {case['date']} at {case['commit']}.", ""]
     return "\n".join(lines)
 
 
 def write_page(cases):
-    """From rows, seconds and the like of each case by the name of its file, as run.py keeps them."""
+    """From rows, seconds of each run and the like of each case by the name of its file, as run.py keeps them."""
     modules = {name: importlib.import_module(f"cases.{name}") for name in CASES}
     seeds = statistics.mode(len(row["values"]) for case in cases.values() for row in case["rows"]
                             if len(row["values"]) > 1)
     missing = [modules[name].TITLE for name in CASES if name not in cases]
+    seconds = {run: value for case in cases.values() for run, value in case["seconds"].items()}
     head = HEAD.format(seeds={3: "three"}.get(seeds, seeds), verdict=verdict_of(cases),
+                       runs=len(seconds), seconds=sum(seconds.values()),
                        missing=f"\n\nNot yet here: {'; '.join(missing)}." if missing else "")
     sections = (section(name, cases[name], modules[name], seeds) for name in CASES if name in cases)
     PAGE.write_text("\n".join([head, *sections]), encoding="utf-8")

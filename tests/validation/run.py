@@ -106,10 +106,9 @@ def judge(name, case, runs):
               f"[{row['low']:.4g}, {row['high']:.4g}]: {VERDICTS[row['within']]}", flush=True)
     commit = subprocess.run(["git", "log", "-1", "--format=%h", "--", "core", "scenarios", "io", "app", ":!*.md"],
                             cwd=ROOT, capture_output=True, text=True).stdout.strip()
-    summaries = [run.summary() for run in runs.values()]
-    seconds = sum(summary["timing"]["cpu"] for summary in summaries)
-    spheres = max(summary["ledger"]["inserted"] for summary in summaries)
-    return {"rows": rows, "seconds": seconds, "runs": len(runs), "spheres": spheres, "commit": commit,
+    summaries = {run: runs[run].summary() for run in runs}
+    return {"rows": rows, "seconds": {run: summary["timing"]["cpu"] for run, summary in summaries.items()},
+            "spheres": max(summary["ledger"]["inserted"] for summary in summaries.values()), "commit": commit,
             "date": datetime.date.today().isoformat()}
 
 
