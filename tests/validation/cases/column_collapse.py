@@ -17,9 +17,9 @@ Parameters: l = 32 d, but 16 d of round columns from a = 2 on; beads ± 5 %, fri
 Half of the column stands in a slot 4.4 d deep, periodic, or a quarter of a round one between smooth walls. a is that
 of the column as it stands. What is poured is held by a smooth gate or tube that vanishes at once. The front is where
 the deposit is half a diameter thick, the heights are means of the tops of the beads, the time is that when 98 % of the
-run-out is made. From the release runs last 6 √(h/g), of a = 4 only 4.2, and of a = 8, which stop sooner, 3.4: until
-4.2 their fronts moved by 0.4 % at most (a first set of runs). The run-out depends on l/d, too (Warnett et al. 2014,
-Granular Matter 16, 115), hence the prefactors only ± 20 %.
+run-out is made. From the release runs last 6 √(h/g), of a = 4 only 4.2, and of a = 8, which stop sooner, 3.4: from
+there to 4.2 fronts swung by 1.3 % at most, and rows change by less than 1 % (a first set of runs). The run-out depends
+on l/d, too (Warnett et al. 2014, Granular Matter 16, 115), hence the prefactors only ± 20 %.
 
 Tolerances, fixed before the runs: prefactors ± 20 %, of the slot those of glass beads; exponents ± 0.07; durations,
 mean of all that are higher than a = 1.5, ± 15 %; of the lowest the height of the middle 0.9 to 1.05 of that before,
