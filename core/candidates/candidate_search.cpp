@@ -14,7 +14,8 @@ constexpr double horizon_steps = 20;  ///< steps along its way for which a liste
 constexpr double longest_way = 1.0;   ///< … but with what it needs now by this many smallest diameters at most
 constexpr double tile_diameters =
     6.0;                            ///< a tile's edge at least, in mean diameters: packs of smaller ones are less full
-constexpr double worn_share = 0.25; ///< a sphere that has used up so much of its skin is searched for along with others
+constexpr double worn_share = 0.25; ///< a sphere that has used up so much of its skin is searched for with others …
+constexpr double steps_ahead = 4.0; ///< … and so is one that will have, after so many steps more
 constexpr double wall_skin = 0.2;   ///< how far a wall may move before it is searched for anew, in smallest diameters
 
 /// Room around the centre of sphere i that its surface takes, with half the reach of its contacts.
@@ -31,6 +32,12 @@ Box needed_box(const State& state, const Model& model, double h, std::size_t i)
     return Box{x, x}.extend(Vec3(x + move)).grown(needed_radius(state, model, i));
 }
 
+/// The room that a box takes on its way.
+Box drawn_out(const Box& box, const Vec3& way)
+{
+    return Box(box).extend(Box{box.min + way, box.max + way});
+}
+
 Box new_listed_box(const State& state, const Model& model, double h, std::size_t i)
 {
     const double t = horizon_steps * h;
@@ -39,9 +46,7 @@ Box new_listed_box(const State& state, const Model& model, double h, std::size_t
     const double way_now = now.extent().maxCoeff() - 2.0 * needed_radius(state, model, i);
     const double longest = std::max(0.0, longest_way * model.min_diameter - way_now);
     if (draw.norm() > longest) draw *= longest / draw.norm();
-    return Box(now)
-        .extend(Box{now.min + draw, now.max + draw})
-        .grown(skin * model.min_diameter + skin_per_draw * draw.norm());
+    return drawn_out(now, draw).grown(skin * model.min_diameter + skin_per_draw * draw.norm());
 }
 
 /// A listed box is no longer than this along an axis, but that of a sphere which moves further in a step than spheres
@@ -78,7 +83,8 @@ std::vector<std::int32_t> spheres_to_search(const CandidateList& list, const Sta
         const Vec3 shift = model.periodicity.shift_towards(state.position[k], list.listed_box[k].center());
         const Box needed = needed_box(state, model, h, k).shifted(shift);
         const bool left = !list.listed_box[k].contains(needed);
-        const bool worn = !list.listed_box[k].contains(needed.grown((1.0 - worn_share) * skin * model.min_diameter));
+        const Box soon = drawn_out(needed, steps_ahead * h * state.motion[k].velocity);
+        const bool worn = !list.listed_box[k].contains(soon.grown((1.0 - worn_share) * skin * model.min_diameter));
         wear[k] = left || worn;
         any_left = any_left || left;
     }

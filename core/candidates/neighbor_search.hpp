@@ -14,7 +14,12 @@ namespace talus
 struct IndexPair {
     std::int32_t a = 0;
     std::int32_t b = 0;
-    auto operator<=>(const IndexPair&) const = default;
+    bool operator==(const IndexPair&) const = default;
+    /// By a, then by b: in one comparison, since lists of pairs are sorted at every search.
+    auto operator<=>(const IndexPair& other) const { return key() <=> other.key(); }
+
+private:
+    std::uint64_t key() const { return (static_cast<std::uint64_t>(a) << 32U) + static_cast<std::uint32_t>(b); }
 };
 
 /// All pairs of boxes that meet, touching included, across periodic borders too, each once and in no particular order

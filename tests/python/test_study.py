@@ -162,7 +162,8 @@ values = ["cheese"]
         self.assertAlmostEqual(row["contact_updates_per_s"] * window / updates, 1, places=9)
         self.assertAlmostEqual(found["velocity_error"] / (numpy.mean(errors) / math.sqrt(9.81 * d)), 1, places=6)
         self.assertTrue(creep.min() < found["creep"] * d * window < creep.max())
-        self.assertAlmostEqual(found["creep"] * d * window / numpy.median(creep), 1, delta=0.05)
+        median = numpy.sort(creep)[len(creep) // 2]  # of an even number Talus takes the higher one of the middle two
+        self.assertAlmostEqual(found["creep"] * d * window / median, 1, places=6)
         self.assertAlmostEqual(row["profile"][0], 1, delta=0.1, msg="the walls do not carry the weight")
 
     def test_the_velocity_error_is_measured_without_a_trace(self):

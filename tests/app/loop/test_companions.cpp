@@ -188,8 +188,8 @@ TEST_CASE("what companions tell of a wrong step or tolerance is what the better 
             Case{hardly, well, &ChangesOfResult::by_solver, coordination, 0.4},
             Case{hardly, well, &ChangesOfResult::by_solver, temperature, 0.4}}) {
         OpenedScene run = open(place, shaken_bed(), wrong), better_run = open(place, shaken_bed(), better);
-        const ChangeOfResult change = (companions_of(run, 3.0).of_result(quantity).*by)();
-        companions_of(better_run, 3.0, 0.0);
+        const ChangeOfResult change = (companions_of(run, 6.0).of_result(quantity).*by)();
+        companions_of(better_run, 6.0, 0.0);
         const Measurement found = run.simulation.sensors[0]->results()[quantity];
         const Measurement owed = better_run.simulation.sensors[0]->results()[quantity];
         const double share = change.mean / (owed.value - found.value);
@@ -205,7 +205,7 @@ TEST_CASE("the step and the tolerance that a scene gets are not called wrong", "
 {
     const Workplace place;
     OpenedScene opened = open(place, shaken_bed(), {});
-    const Companions companions = companions_of(opened, 2.0);
+    const Companions companions = companions_of(opened, 4.0);
     const ChangesOfResult changes = companions.of_result(temperature);
     const double value = opened.simulation.sensors[0]->results()[temperature].value;
     for (const ChangeOfResult& change : {changes.by_step(), changes.by_solver()}) {
