@@ -31,7 +31,7 @@ has the flow of Talus in the cone of 30° of scenarios/hopper.toml (the case of 
 since beads roll down the smooth wall: where they cannot turn most of them stand."""
 OUTLET, TUBE = 0.04, 0.10  # radii, m
 RANGES = {15: (1.2, 1.6), 30: (1.05, 1.25), 45: (0.9, 1.1), 60: (0.85, 1.05)}  # by the half-angle, °
-WATCHED = (1.5, 1.8)  # s, two frames
+WATCHED = (1.2, 1.5)  # s, two frames
 
 
 def height(angle, outlet=OUTLET):
