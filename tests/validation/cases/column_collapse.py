@@ -28,7 +28,7 @@ which was the mean height of the column at first, but the middle of a round one 
 after the release, a up to 2, up to 1e-4 M g h. For a time a = 8 in the slot, 4 and 8 round, were left out, and l was
 16 d; in the slot and for low round columns it was made 32 d when runs with 16 d had been judged, which are shown
 beside. Half the step, a = 2 in the slot: 1 ± 0.05, added when steps 1.9 times as long had shortened the run-out of a = 8
-there by a tenth. No tolerance was touched.
+there by 8 %. No tolerance was touched.
 """
 import math
 from typing import NamedTuple
