@@ -35,7 +35,7 @@ Box needed_box(const State& state, const Model& model, double h, std::size_t i)
 /// The room that a box takes on its way.
 Box drawn_out(const Box& box, const Vec3& way)
 {
-    return Box(box).extend(Box{box.min + way, box.max + way});
+    return Box(box).extend(box.shifted(way));
 }
 
 Box new_listed_box(const State& state, const Model& model, double h, std::size_t i)

@@ -114,6 +114,12 @@ def power(values, depths):
     return tuple(float(slope) for slope in numpy.polyfit(numpy.log(values), numpy.log(depths), 1)[0])
 
 
+def power_at_one_height(runs, drops, of):
+    """Of what the drops go by, for each seed; what the height of the whole drop does to the depth is taken out."""
+    return power(list(drops), [depth / whole ** (1 / 3)
+                               for depth, whole in (found(runs, drop, of) for drop in drops.values())])
+
+
 def judge(runs):
     heights = {h: found(runs, (h, *BASE[1:])) for h in HEIGHTS}
     yield Row("power of the drop height", "1/3 (Uehara et al. 2003)", "± 0.07", 1 / 3 - 0.07, 1 / 3 + 0.07, tuple(
@@ -123,14 +129,10 @@ def judge(runs):
     for what, unit, expected, margin, text, drops, finer_drops in (
             ("density", "kg/m³", 1 / 2, 0.1, "1/2", BY_DENSITY, FINER_DENSITIES),
             ("diameter", "m", 2 / 3, 0.15, "2/3", BY_DIAMETER, BY_DIAMETER)):
-        powers, of_finer = (
-            power(list(some), [depth / whole ** (1 / 3)
-                               for depth, whole in (found(runs, drop, of) for drop in some.values())])
-            for some, of in ((drops, simulations), (finer_drops, finer)))
         yield Row(f"power of the ball's {what}", f"{text} (Uehara et al. 2003)", f"± {margin}", expected - margin,
-                  expected + margin, powers)
+                  expected + margin, power_at_one_height(runs, drops, simulations))
         yield told(f"the same on beads half as wide, {' and '.join(f'{value:g}' for value in finer_drops)} {unit} (one run "
-                   "of each)", of_finer)
+                   "of each)", power_at_one_height(runs, finer_drops, finer))
     ratios = [depth / uehara(drop, whole) for drop in DROPS for depth, whole in [found(runs, drop)]]
     yield Row("depth / that of the formula", "1 (Uehara et al. 2003, 0.14 from memory)", "0.7 to 1.4", 0.7, 1.4,
               tuple(map(float, numpy.mean(ratios, axis=0))))
