@@ -141,7 +141,7 @@ class Analysis(unittest.TestCase):
         self.assertAlmostEqual(column_collapse.top(spheres, spheres.positions[:, 0], 0.005, 0.005), 0.01, places=9)
 
     def test_exponent_of_collapses(self):
-        collapses = [column_collapse.Collapse(a, 1.6 * a**0.5, a, 1, 3, 0) for a in (2, 4, 8)]
+        collapses = [column_collapse.Collapse(a, 1.6 * a**0.5, a, 1, 3, 0, 0) for a in (2, 4, 8)]
         self.assertAlmostEqual(column_collapse.power(collapses, "run_out"), 0.5, places=9)
         self.assertAlmostEqual(column_collapse.prefactor(collapses, "run_out", 0.5), 1.6, places=9)
 
