@@ -135,6 +135,7 @@ struct PhaseTime {
     double cpu = 0.0;  ///< [s], of all threads
 };
 
+/// From the first step on: what the building of the scene took is not in it.
 struct TimingSummary {
     double wall = 0.0;
     double cpu = 0.0;

@@ -18,7 +18,7 @@ parameters and sources, and why its tolerance is what it is. Values are the mean
 told, ± its standard error, and are within their tolerance where the mean is; one without an error is of one run. Rows
 without a tolerance are for information. Tolerances were written down before the runs, but where the docstring says
 other. References "from memory" were not read again: their tolerances are wide for that. Seconds are those of the
-processor, of all runs of a case; cases may share runs, and two are made at a time.
+processor, of all runs of a case from their first step on; cases may share runs, and two are made at a time.
 
 {verdict} All {runs} runs took {seconds:.0f} seconds.{missing}
 """

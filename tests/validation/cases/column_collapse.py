@@ -20,9 +20,10 @@ into little more room than they take: from a looser one a = 4 and 8 fell far, st
 when they were released, and a = 8 burst in its middle; a first set of their runs was that. The front is where
 the deposit is half a diameter thick, the heights are means of the tops of the beads, the time is that when 98 % of the
 run-out is made. From the release runs last 6 √(h/g), of a = 4 only 4.2, and of a = 8, which stop sooner, 3.4: from
-there to 4.2 fronts swung by 1.3 % at most, and rows change by less than 1 % (a first set of runs). The run-out depends
-on l/d, too (Warnett et al. 2014, Granular Matter 16, 115), hence the prefactors only ± 20 %. The automatic step follows
-from what might fall from the top of the column, 0.1 d in a step.
+there to 4.2 fronts swung by 1.3 % at most, and rows change by less than 1 % (a first set of runs); with half the step
+they last 5, from where fronts stood to 0.1 % (an earlier set). The run-out depends on l/d, too (Warnett et al. 2014,
+Granular Matter 16, 115), hence the prefactors only ± 20 %. The automatic step follows from what might fall from the top
+of the column, 0.1 d in a step.
 
 Tolerances, fixed before the runs: prefactors ± 20 %, of the slot those of glass beads; exponents ± 0.07; durations,
 mean of all that are higher than a = 1.5, ± 15 %; of the lowest the height of the middle 0.9 to 1.05 of that before,
@@ -112,7 +113,8 @@ def collapse(shape, aspect, name="", **settings):
 
 COLUMNS = {shape.name: [collapse(shape, aspect) for aspect in shape.aspects]
            for shape in (SLOT, COARSE_SLOT, ROUND, FINE_ROUND)}
-FINER = collapse(SLOT, 2, "_finer", **{"time.step": 5.6e-5})
+FINER = collapse(SLOT, 2, "_finer", **{
+    "time.step": 5.6e-5, "time.duration": RELEASE + 5 * math.sqrt(2 * LENGTH / GRAVITY)})
 RUNS = [*(run for columns in COLUMNS.values() for simulations in columns for run in simulations), *FINER]
 
 

@@ -66,7 +66,7 @@ def far_lowered(name, load):
     """1 D below the lid with a weight that is less by a load [N] of the table; the floor goes down by three diameters."""
     return over_seeds(f"silo_far_{name}", "mobilised_silo", {
         "time.duration": 3.5, "wall.floor.motion.0.table": "[[0.5, 0, 0, 0], [3.5, 0, 0, -0.03]]",
-        "wall.lid.released_at": 0, "wall.lid.center": "[0, 0, 0.28]", "wall.lid.load": load})
+        "wall.lid.released_at": 0, "wall.lid.center": "[0, 0, 0.28]", "wall.lid.load": load}, seeds=(1,))
 
 
 EARLY, LATE = far_lowered("early", "[[0, 0], [1, 0]]"), far_lowered("late", "[[1.5, -33], [1.6, 0]]")
@@ -134,7 +134,7 @@ def judge(runs):
                         for (mass, load, _), (_, _, saturation, _) in zip(loaded, found)))
     for name, simulations, first in (("from the start", EARLY, (0.5, 0.6)), ("after 1 d of way", LATE, (1.6, 2.1))):
         for when, (begin, end) in ((f"for {first[1] - first[0]:.1g} d", first), ("afterwards", (first[1], 3.5))):
-            yield told(f"1 D with its load {name}: load of the floor / Janssen's, {when}",
+            yield told(f"1 D with its load {name} (one run): load of the floor / Janssen's, {when}",
                        (load_between(runs[run.name], begin, end) / carried(masses[0], saturation, LID)
                         for run, (masses, _, saturation, _) in zip(simulations, found)))
 
