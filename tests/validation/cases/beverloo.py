@@ -77,7 +77,7 @@ K)[0]:.2f} and k = {fit(SIZES, mankoc(SIZES))[2]:.2f}, that of Sharma et al. 202
 spheres, {fit(SIZES, sharma(SIZES, 10), K)[0]:.2f} to {fit(SIZES, sharma(SIZES, 15), K)[0]:.2f} and k
 = {fit(SIZES, sharma(SIZES, 10))[2]:.2f} to {fit(SIZES, sharma(SIZES, 15))[2]:.2f}: Talus lies between
 the two, so by them k = 1.4 does not fit such spheres over such a bottom. Both put it down to dilution at the outlet,
-which is there, in the last frames of the runs with 8 d; the 0.59 of Beverloo's constant bulk density is nowhere. In a
+which is there, in the last frames of the runs with 8 d; the 0.59 of Beverloo's law is there from 8 d above it on. In a
 cone, where beads do not cross an edge, k is smaller (the case of the conical hopper). Another code of soft spheres has k =
 1.57 and 1.68 by outlets of 6 to 10 d (the DEM module of github.com/rochi00/moose, modules/dem/doc/content/validation.md),
 by which Talus has what the last row says. Walls further away were not tried."""

@@ -31,7 +31,7 @@ from case import Row, over_seeds, told
 from measures import volumes
 
 TITLE = "rough incline"
-FINDINGS = """At 28° the flow gains speed for more than five seconds; from the eighth to the tenth it is steady. At
+FINDINGS = """At 28° the flow gains speed for more than five seconds; from the eighth to the tenth it hardly does. At
 both slopes spheres of friction 0.5 are a little weaker than glass beads."""
 GRAVITY, DIAMETER, AREA = 9.81, 0.01, 0.12 * 0.08  # as in scenes/rough_incline.toml
 TIMES = {15: (3.0, 4.0), 24: (3.0, 5.0), 28: (8.0, 10.0), 33: (3.0, 5.0)}  # from when to when, s
