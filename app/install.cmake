@@ -84,6 +84,7 @@ endif()
 set(TALUS_MAINTAINER "${maintainer}" CACHE STRING "Who answers for the packages")
 set(changelog ${PROJECT_BINARY_DIR}/changelog)
 configure_file(app/debian/changelog.in ${changelog} @ONLY)
+execute_process(COMMAND gzip -9nkf ${changelog} COMMAND_ERROR_IS_FATAL ANY)
 foreach(package IN ITEMS "talus;talus" "development;libtalus-dev" "site;talus-doc"
     "python;python3-talus")
   list(GET package 0 component)
@@ -149,6 +150,5 @@ endif()
 ]] @ONLY)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 include(CPack)
-add_custom_command(OUTPUT ${changelog}.gz DEPENDS ${changelog} COMMAND gzip -9nkf ${changelog} VERBATIM)
-add_custom_target(deb COMMAND ${CMAKE_CPACK_COMMAND} -G DEB DEPENDS talus man ${rooms} ${changelog}.gz ${python_module}
-  USES_TERMINAL VERBATIM)
+add_custom_target(deb COMMAND ${CMAKE_CPACK_COMMAND} -G DEB DEPENDS talus man ${rooms} ${python_module} USES_TERMINAL
+  VERBATIM)
