@@ -16,7 +16,7 @@ from types import SimpleNamespace
 import numpy
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).resolve().parents[2] / "postprocess")]
-from case import Row, told  # noqa: E402  found by the line above
+from case import Row, mean_and_error, told  # noqa: E402  found by the line above
 from cases import (beverloo, chung_ooi, clogging, column_collapse, conical_hopper, crater, drum,  # noqa: E402
                    force_distribution, granular_gas, incline, janssen, packings, plane_shear, repose, same_scene,
                    segregation)
@@ -86,7 +86,10 @@ class Analysis(unittest.TestCase):
         simulations = clogging.silo(3, 1, 1, 4000)
         beads = numpy.random.default_rng(1).exponential(300, len(simulations)).astype(int)
         runs = {run.name: Run(count) for run, count in zip(simulations, beads)}
-        self.assertAlmostEqual(clogging.until_clog(runs, simulations).mean(), 300, delta=15)
+        mean, error = mean_and_error(clogging.until_clog(runs, simulations))
+        self.assertAlmostEqual(mean, 300, delta=15)
+        clogs = sum(beads < 400)
+        self.assertAlmostEqual(error, 300 / math.sqrt(clogs), delta=0.05 * error)
 
     def test_least_place(self):
         values = numpy.array([[[5, 6], [1, 4]], [[9, 8], [2, 1.0]]])  # by two places and seed
