@@ -123,28 +123,39 @@ class Analysis(unittest.TestCase):
         self.assertAlmostEqual(plane_shear.limit(numbers, 0.1 + 0.4 * numbers**0.38, 0.0), 0.1, places=9)
 
     def test_front_and_top_of_a_deposit(self):
-        # Layers of beads, two diameters thick up to 0.2 m and a tenth of a diameter beyond.
+        # Layers of beads, two diameters thick up to 0.2 m and three tenths of a diameter beyond.
         random = numpy.random.default_rng(1)
         for shape in (column_collapse.SLOT, column_collapse.ROUND):
             diameter = shape.diameter
             radius = 0.5 * diameter
             bead = 4 / 3 * math.pi * radius**3
             floor = column_collapse.area(numpy.array([0.2, 0.3]), shape)
-            thick, thin = (numpy.array([2, 0.1]) * diameter * column_collapse.FRACTION
+            thick, thin = (numpy.array([2, 0.3]) * diameter * column_collapse.FRACTION
                            * numpy.diff(floor, prepend=0) / bead).astype(int)
             share = numpy.concatenate([random.random(thick) * floor[0],
-                                       floor[0] + random.random(thin) * (floor[1] - floor[0])])
+                                       numpy.linspace(*floor, thin, endpoint=False)])
             distance = (numpy.sqrt(share / math.pi * 4) if column_collapse.is_round(shape)
                         else share / column_collapse.depth(shape))
             found = column_collapse.front(distance, numpy.full(len(distance), radius), shape)
             self.assertAlmostEqual(found, 0.2, delta=1.1 * diameter)
+            found = column_collapse.front(distance, numpy.full(len(distance), radius), shape, 0.05)
+            self.assertAlmostEqual(found, 0.3, delta=2 * diameter)
         spheres = SimpleNamespace(radii=numpy.full(3, 0.0025), positions=numpy.array(
             [[0.001, 0.001, 0.0025], [0.002, 0.001, 0.0075], [0.006, 0.001, 0.0025]]))
         self.assertAlmostEqual(column_collapse.top(spheres, spheres.positions[:, 0], 0.1, 0.005), 0.0075, places=9)
         self.assertAlmostEqual(column_collapse.top(spheres, spheres.positions[:, 0], 0.005, 0.005), 0.01, places=9)
 
+    def test_angle_of_tops(self):
+        # Beads in a lattice below a plane that falls by 0.5, with one in flight and one that has fallen off.
+        x, y = (axis.ravel() for axis in numpy.meshgrid(numpy.arange(0.005, 0.2, 0.01), numpy.arange(0.005, 0.06, 0.01)))
+        positions = numpy.vstack([numpy.column_stack([x, y, 0.15 - 0.5 * x - depth]) for depth in (0, 0.01)]
+                                 + [[[0.30, 0.02, 0.1], [0.1, 0.02, -0.1]]])
+        run = DeckRun.__new__(DeckRun)
+        run.spheres = [SimpleNamespace(positions=positions, radii=numpy.full(len(positions), 0.005))]
+        self.assertAlmostEqual(repose.angle_of_tops(run), math.degrees(math.atan(0.5)), places=9)
+
     def test_exponent_of_collapses(self):
-        collapses = [column_collapse.Collapse(a, 1.6 * a**0.5, a, 1, 3, 0, 0) for a in (2, 4, 8)]
+        collapses = [column_collapse.Collapse(a, 1.6 * a**0.5, a, a, 1, 3, 3, 0, 0) for a in (2, 4, 8)]
         self.assertAlmostEqual(column_collapse.power(collapses, "run_out"), 0.5, places=9)
         self.assertAlmostEqual(column_collapse.prefactor(collapses, "run_out", 0.5), 1.6, places=9)
 

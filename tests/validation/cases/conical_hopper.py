@@ -9,8 +9,9 @@ University Bulletin 123; the formula as in Leung et al. 2019, J. Pharm. Sci. 108
 and walls that are no less rough.
 
 Parameters: beads ± 5 %, friction 0.5 everywhere, restitution 0.5; outlet of 8 d in a tube of 20 d; half-angles 15° to
-60°; the flat bottom is that of beverloo.py. A bead at the cone, less than 0.1 d from touching it, moves if it goes more
-than 0.2 d in 0.3 s of steady flow.
+60°; the flat bottom is that of beverloo.py. LIGGGHTS runs the cones of 15° and 45° as decks that `talus export` writes,
+with one seed, for its time. A bead at the cone, less than 0.1 d from touching it, moves if it goes more than 0.2 d in
+0.3 s of steady flow.
 
 Tolerances, fixed before the runs, wide enough for both laws: 15° 1.2 to 1.6, 30° 1.05 to 1.25, 45° 0.9 to 1.1, 60°
 0.85 to 1.05. Share of the beads at the cone that move: 15° at least 0.99; 60°, where a zone must stand, at most 0.9.
@@ -20,6 +21,7 @@ import math
 import numpy
 
 from case import Row, over_seeds, told
+from deck import spheres_of
 
 from .beverloo import DIAMETER, PLAIN, fit, flows
 
@@ -35,6 +37,7 @@ these."""
 OUTLET, TUBE = 0.04, 0.10  # radii, m
 RANGES = {15: (1.2, 1.6), 30: (1.05, 1.25), 45: (0.9, 1.1), 60: (0.85, 1.05)}  # by the half-angle, °
 WATCHED = (1.2, 1.5)  # s, two frames
+COUNTED = (0.9, 1.2)  # s, the same
 
 
 def height(angle, outlet=OUTLET):
@@ -42,16 +45,19 @@ def height(angle, outlet=OUTLET):
     return (TUBE - outlet) / math.tan(math.radians(angle))
 
 
-def hopper(angle, outlet=OUTLET, name="", **settings):
+def hopper(angle, outlet=OUTLET, name="", settings=None, **others):
     top = height(angle, outlet)
     return over_seeds(f"hopper_{angle}{name}", "conical_hopper", {
         "wall.cone.height": top, "wall.tube.base": f"[0, 0, {top}]", "fill.0.region.base": f"[0, 0, {top + 0.001}]",
-        **settings})
+        **(settings or {})}, **others)
 
 
-NARROW = hopper(30, 0.03, "_narrow", **{"wall.cone.base_radius": 0.03, "wall.gate.radius": 1.2 * 0.03})
-SLIDING = hopper(60, name="_sliding", **{"world.rotation": "false"})
-RUNS = [*PLAIN[6], *PLAIN[8], *(run for angle in RANGES for run in hopper(angle)), *NARROW, *SLIDING]
+NARROW = hopper(30, 0.03, "_narrow", {"wall.cone.base_radius": 0.03, "wall.gate.radius": 1.2 * 0.03})
+SLIDING = hopper(60, name="_sliding", settings={"world.rotation": "false"})
+THEIRS = {angle: hopper(angle, name="_liggghts", settings={"time.duration": 1.205}, seeds=(1,), program="liggghts")
+          for angle in (15, 45)}
+RUNS = [*PLAIN[6], *PLAIN[8], *(run for angle in RANGES for run in hopper(angle)), *NARROW, *SLIDING,
+        *(run for simulations in THEIRS.values() for run in simulations)]
 
 
 def brown(angle):
@@ -61,6 +67,14 @@ def brown(angle):
 
 def rose_tanaka(angle, stagnant):
     return numpy.maximum(1, (numpy.tan(numpy.radians(angle)) * math.tan(math.radians(stagnant))) ** -0.35)
+
+
+def beads_out(run):
+    """That leave between two frames, of Talus or of LIGGGHTS."""
+    frames = spheres_of(run)
+    above = [next(numpy.count_nonzero(spheres.positions[:, 2] > 0) for spheres in frames if abs(spheres.time - time) < 1e-3)
+             for time in COUNTED]
+    return above[0] - above[1]
 
 
 def ways(run, angle):
@@ -83,6 +97,10 @@ def judge(runs):
                   f"{brown(angle):.2f} (Brown 1961), {rose_tanaka(angle, 60):.2f} to {rose_tanaka(angle, 45):.2f} "
                   "(Rose & Tanaka 1959), from memory", f"{low} to {high}", low, high,
                   tuple(flows(runs, hopper(angle)) / flat))
+    for angle, simulations in THEIRS.items():
+        theirs = beads_out(runs[simulations[0].name])
+        yield told(f"half-angle {angle}°: beads that leave from {COUNTED[0]} to {COUNTED[1]} s",
+                   (beads_out(runs[run.name]) for run in hopper(angle)), f"{theirs} (LIGGGHTS, one run)")
     for angle, tolerance, low, high in ((15, "at least 0.99", 0.99, 1.0), (60, "at most 0.9", 0.0, 0.9)):
         yield Row(f"half-angle {angle}°: share of the beads at the cone that move",
                   f"{'1' if low else 'below 1'} (Jenike 1964)", tolerance, low, high,

@@ -11,7 +11,8 @@ little steeper, and more sliding friction does not help.
 Parameters: a ledge of 20 d, periodic sideways, covered with fixed beads (scenes/ledge.toml); beads ± 5 % stand 15 d
 high behind a gate, which is lowered in 0.6 s; 1.6 s later a line is laid through the middle 60 % of the surface.
 Rolling friction is torque / (normal force · R*), so r_pp = r_pw = d/4 of it, the bottom being of beads. (A first scene
-was larger; a look at two of its runs showed them still flowing at their end.)
+was larger; a look at two of its runs showed them still flowing at their end.) LAMMPS and LIGGGHTS have one heap, for
+information, as decks that `talus export` writes; the angle there is of a line through the tops in the last frame.
 
 Tolerances, fixed before the runs:
 - without rolling friction: from 2° below atan η_s to 4° above, since a heap begins to move when steeper than it flows.
@@ -20,9 +21,13 @@ Tolerances, fixed before the runs:
 - rolling friction 0.2 less none, friction 0.5: 3° or more, half of what the law of 2002 gives from 0.05 to 0.2.
 - the largest deviation from that law where it has rolling friction and friction is 0.3 to 1: ± 4°.
 """
+import math
+
 import numpy
 
-from case import SEEDS, Row, over_seeds
+from case import SEEDS, Row, over_seeds, told
+from deck import spheres_of
+from measures import mean_of_highest
 
 TITLE = "angle of repose"
 FINDINGS = """The least rise is that from sliding friction 0.5 to 1 with rolling friction 0.05, just too far below zero,
@@ -39,13 +44,18 @@ SHEARED = {0.1: 15.0, 0.3: 19.6, 0.5: 20.9, 1.0: 22.0}  # atan η_s, °, by slid
 DIAMETER_MM = 10.0
 
 
-def heap(sliding, rolling):
-    return over_seeds(f"repose_{sliding}_{rolling}", "ledge", {"contact.0.friction": sliding,
-                                                               "contact.0.rolling_friction": rolling})
+def heap(sliding, rolling, name="", **others):
+    return over_seeds(f"repose_{sliding}_{rolling}{name}", "ledge", {
+        "contact.0.friction": sliding, "contact.0.rolling_friction": rolling}, **others)
 
 
 ROUGHEST = heap(10.0, 0.0)
-RUNS = [*(run for sliding in SLIDING for rolling in ROLLING for run in heap(sliding, rolling)), *ROUGHEST]
+BESIDE = (0.3, 0.1)  # sliding and rolling friction of the heaps of other codes
+THEIRS = {"LAMMPS": heap(*BESIDE, "_lammps", seeds=(1,), program="lammps"),
+          "LIGGGHTS, 5e6 Pa": heap(*BESIDE, "_liggghts", seeds=(1,), program="liggghts"),
+          "LIGGGHTS, 2e7 Pa": heap(*BESIDE, "_liggghts_2e7", seeds=(1,), program="liggghts", modulus="2e7")}
+RUNS = [*(run for sliding in SLIDING for rolling in ROLLING for run in heap(sliding, rolling)), *ROUGHEST,
+        *(run for simulations in THEIRS.values() for run in simulations)]
 
 
 def zhou(sliding, rolling):
@@ -56,6 +66,17 @@ def zhou(sliding, rolling):
 def angles(runs, simulations):
     """[°], one for each seed."""
     return numpy.array([runs[run.name].sensors()["surface"]["angle"].value for run in simulations])
+
+
+def angle_of_tops(run):
+    """[°] of the line through the means over strips of the highest tops in the last frame, where the sensor lies."""
+    spheres = spheres_of(run)[-1]
+    x, y, z = spheres.positions.T
+    edges = numpy.linspace(0.04, 0.16, 13)
+    strip = numpy.digitize(x, edges)
+    heights = [mean_of_highest((z + spheres.radii)[here], numpy.floor(y[here] / 0.01))
+               for here in ((strip == k) & (z > 0) for k in range(1, len(edges)))]
+    return math.degrees(math.atan(-numpy.polyfit(0.5 * (edges[1:] + edges[:-1]), heights, 1)[0]))
 
 
 def table(runs):
@@ -87,6 +108,11 @@ def judge(runs):
     yield Row("largest deviation from the law of nine [°]", "0 (Zhou et al. 2002)", "± 4", -4.0, 4.0,
               tuple(beside_zhou[abs(beside_zhou.mean(axis=1)).argmax()]))
 
+    which = f"friction {BESIDE[0]:g}, rolling friction {BESIDE[1]:g}: angle by the last frame [°]"
+    law = f"{zhou(*BESIDE):.1f} (Zhou et al. 2002)"
+    yield told(which, (angle_of_tops(runs[run.name]) for run in heap(*BESIDE)), law)
+    for code, simulations in THEIRS.items():
+        yield told(f"the same in {code} (one run)", (angle_of_tops(runs[run.name]) for run in simulations), law)
 
 def draw(figure, runs):
     heat, lines = figure.subplots(1, 2, width_ratios=(1, 1.1))

@@ -40,10 +40,15 @@ RADIUS, FLOOR, START = 0.01, -0.090243, 0.06  # of the ball, m
 OURS = over_seeds("penetration", "penetration")
 THEIRS = over_seeds("penetration_liggghts", "penetration", seeds=(1,), program="liggghts", modulus="5e7")
 SENT = 1.7  # m/s, at one bead
+FROM_FLOOR = (0.034, 0.036)  # s, when the ball has come back from the floor, and is in the bed still
+SMOOTH = {"time.duration": 0.0365, **{f"contact.{k}.friction": 0 for k in range(3)}}
+OURS_SMOOTH = over_seeds("penetration_smooth", "penetration", SMOOTH)
+THEIRS_SMOOTH = over_seeds("penetration_smooth_liggghts", "penetration", SMOOTH, seeds=(1,), program="liggghts",
+                           modulus="5e7")
 ALONE = {"Talus": over_seeds("ball_on_bead", "ball_on_bead", seeds=(1,)),
          **{f"LIGGGHTS, {modulus} Pa": over_seeds(f"ball_on_bead_liggghts_{modulus}", "ball_on_bead", seeds=(1,),
                                                   program="liggghts", modulus=modulus) for modulus in ("1e9", "5e7")}}
-RUNS = [*OURS, *THEIRS, *(run for simulations in ALONE.values() for run in simulations)]
+RUNS = [*OURS, *THEIRS, *OURS_SMOOTH, *THEIRS_SMOOTH, *(run for simulations in ALONE.values() for run in simulations)]
 
 
 def track(run):
@@ -54,6 +59,12 @@ def track(run):
     before = frames[numpy.searchsorted(time, 0.0181) - 1]
     x, y, z = before.positions[1:].T
     return time, low, mean_of_highest(z + before.radii[1:] - FLOOR, numpy.floor(x / 0.004), numpy.floor(y / 0.004))
+
+
+def speed_from_floor(run):
+    time, low, _ = track(run)
+    first, last = (int(numpy.argmin(abs(time - at))) for at in FROM_FLOOR)
+    return (low[last] - low[first]) / (time[last] - time[first])
 
 
 def rebound(run):
@@ -75,6 +86,10 @@ def judge(runs):
     mean = numpy.mean([numpy.interp(times, time, low) for time, low, _ in theirs], axis=0)
     yield Row("penetration: mean difference of the ball's height [mm]", "0 (LIGGGHTS)", "4", 0, 4, tuple(
         1000 * float(numpy.mean(abs(numpy.interp(times, time, low) - mean))) for time, low, _ in ours))
+    for name, ours, theirs in (("", OURS, THEIRS), (", without friction", OURS_SMOOTH, THEIRS_SMOOTH)):
+        yield told(f"penetration{name}: speed with which the ball comes back from the floor [m/s]",
+                   (speed_from_floor(runs[run.name]) for run in ours),
+                   f"{number(speed_from_floor(runs[theirs[0].name]))} (LIGGGHTS)")
     for name, simulations in ALONE.items():
         yield told(f"a ball sent with {SENT} m/s at one bead on the floor: speed with which it comes back [m/s], {name}",
                    (rebound(runs[run.name]) for run in simulations), f"{0.4 * SENT:.2f} (Newton)")
