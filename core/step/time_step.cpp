@@ -136,15 +136,24 @@ double diameter(const TileContacts& contacts, std::size_t k, bool at_wall, const
     return 2.0 * (at_wall ? radius : std::min(radius, state.radius(contacts.b(k))));
 }
 
-/// Whether there is a deep contact, and not a jammed one, that has this property.
-template <class Property> bool is_any_deep(const ContactNetwork& network, const State& state, Property property)
+/// Whether a spring is as stiff as the sweeps can carry, and not as its material, so that shorter steps make it
+/// stiffer.
+bool is_as_sweeps_can(const ContactTerms& terms, double min_sweeps)
+{
+    return terms.compliance > 0.0 &&
+           terms.compliance * min_sweeps < (1.0 + 1e-9) * sigma_per_sweep * terms.inverse_mass_sum;
+}
+
+/// Whether there is a deep contact with such a spring, and not a jammed one, that has this property.
+template <class Property>
+bool is_any_deep(const ContactNetwork& network, const State& state, const Model& model, Property property)
 {
     const auto has_one = [&](const std::vector<TileContacts>& tiles, bool at_wall) {
         return std::ranges::any_of(tiles, [&](const TileContacts& contacts) {
             return std::ranges::any_of(contacts.indices(), [&](std::size_t k) {
                 const ContactGeometry geometry = contacts.geometry(k);
                 return -geometry.gap > deep * diameter(contacts, k, at_wall, state) && !geometry.touch.is_jammed() &&
-                       property(contacts, k, at_wall);
+                       is_as_sweeps_can(contacts.terms(k), model.solver.min_sweeps) && property(contacts, k, at_wall);
             });
         });
     };
@@ -153,18 +162,18 @@ template <class Property> bool is_any_deep(const ContactNetwork& network, const 
 
 /// Whether a deep contact carries more than its spring in a step of this length could hold: shorter steps have pressed
 /// it, and this one would give back less than they have stored.
-bool lets_springs_go_slack(const ContactNetwork& network, const State& state, double h)
+bool lets_springs_go_slack(const ContactNetwork& network, const State& state, const Model& model, double h)
 {
-    return is_any_deep(network, state, [&](const TileContacts& contacts, std::size_t k, bool) {
+    return is_any_deep(network, state, model, [&](const TileContacts& contacts, std::size_t k, bool) {
         const double held = contacts.terms(k).compliance * contacts.impulse(k).dot(contacts.normal(k));
         return held > greatest_hold * 4.0 * upsilon / h * -contacts.geometry(k).gap;
     });
 }
 
 /// Whether a deep contact closes further than it should in a step.
-bool squeezes_quickly(const ContactNetwork& network, const State& state, double h)
+bool squeezes_quickly(const ContactNetwork& network, const State& state, const Model& model, double h)
 {
-    return is_any_deep(network, state, [&](const TileContacts& contacts, std::size_t k, bool at_wall) {
+    return is_any_deep(network, state, model, [&](const TileContacts& contacts, std::size_t k, bool at_wall) {
         Vec3 u = state.motion[contacts.a(k)].velocity;
         if (!at_wall) u -= state.motion[contacts.b(k)].velocity;
         if (contacts.has_moving_walls()) u -= contacts.wall(k).velocity;
@@ -222,7 +231,7 @@ std::optional<StepReport> advance_once(const StepLength& step, const StepLimits&
     // Who touches whom, and under which law?
     const PreparedStep prepared = prepare_step(state, network, model, step, observer);
     const bool is_deep = !limits.may_squeeze && prepared.contacts.worst_overlap > deep * model.min_diameter;
-    if (is_deep && lets_springs_go_slack(network, state, h)) return std::nullopt;
+    if (is_deep && lets_springs_go_slack(network, state, model, h)) return std::nullopt;
     PistonGroup pistons(network, state, model, h);
     if (limits.fastest < infinity || is_deep) network.before.take(state);
     StepReport report;
@@ -252,7 +261,7 @@ std::optional<StepReport> advance_once(const StepLength& step, const StepLimits&
     report.solve = solve_contacts(network, pistons, state.motion, model.physics, model.solver, warm_size, sweeps);
     pistons.store(network, state);
     if (fastest_of(state, prepared.flights, h, limits.fastest) > limits.fastest ||
-        (is_deep && squeezes_quickly(network, state, h))) {
+        (is_deep && squeezes_quickly(network, state, model, h))) {
         network.before.put_back(state);
         return std::nullopt;
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <omp.h>
 
 namespace talus::test
@@ -201,6 +202,26 @@ TEST_CASE("a heavy sphere squeezes a light one by the same in steps of any lengt
     const double fine = deepest_overlap(0.25 * time_step);
     CHECK(fine < 0.15);
     for (const double share : {1.0, 0.5}) CHECK(deepest_overlap(share * time_step) == within(0.2, fine));
+}
+
+TEST_CASE("no step is split for spheres that are squeezed because they are soft", "[sub_steps]")
+{
+    // Squeezed by half of its diameter, which takes 40 steps.
+    const double speed = 0.02 * d / time_step, mass = std::numbers::pi / 6 * d * d * d * standard_density;
+    World world = make_world(
+        {0.0, 0.0, 0.0, mass * std::pow(speed / (0.5 * d), 2)}, production_settings(Stabilisation::matched), time_step);
+    world.model.solver.push_out_speed = push_out_speed;
+    world.add_plane(Vec3::Zero(), Vec3::UnitZ());
+    world.add_sphere(Vec3(0, 0, 0.5 * d), Vec3(0, 0, -speed));
+    double deepest = 0.0;
+    int most_sub_steps = 1;
+    for (int k = 0; k < 50; ++k) {
+        world.step();
+        deepest = std::max(deepest, world.report.contacts.worst_overlap / d);
+        most_sub_steps = std::max(most_sub_steps, world.report.sub_steps);
+    }
+    CHECK(deepest > 0.3);
+    CHECK(most_sub_steps == 1);
 }
 
 TEST_CASE("a wall that moves at 100 m/s does not pass a sphere", "[sub_steps]")
