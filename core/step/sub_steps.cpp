@@ -55,13 +55,13 @@ bool goes_on(const StepReport& report)
 StepReport make_sub_steps(int count, double wall_speed, State& state, ContactNetwork& network, const Model& model,
     const PhaseObserver& observer)
 {
-    const bool is_soft = model.solver.stabilisation == Stabilisation::matched;
     std::optional<StepReport> whole;
     int made = 0;
     while (made < count) {
         const StepLength step{model.time_step, count, shallow_share * model.min_diameter};
         const double too_fast = longest_move * model.min_diameter / step.h() - wall_speed;
-        const StepLimits limits = 2 * count <= most_sub_steps ? StepLimits{too_fast, !is_soft} : StepLimits{};
+        const StepLimits limits =
+            2 * count <= most_sub_steps ? StepLimits{too_fast, !model.solver.squeezes_slowly} : StepLimits{};
         auto report = advance_once(step, limits, state, network, model, observer);
         if (!report) {
             count *= 2;
@@ -87,11 +87,10 @@ StepReport advance(State& state, ContactNetwork& network, const Model& model, co
     const double h = model.time_step, d = model.min_diameter;
     const double wall_speed = fastest_wall(state, network, model);
     const double move = h * (fastest_sphere(state, model) + wall_speed);
-    const bool is_soft = model.solver.stabilisation == Stabilisation::matched;
     if (!(move > split_from * d)) { // also where there is no diameter yet, or no number
         const bool is_slow = state.count() == 0 || !(greatest_gain * move > longest_move * d);
         const double fastest = is_slow ? infinity : longest_move * d / h - wall_speed;
-        if (auto report = advance_once({h}, {fastest, !is_soft}, state, network, model, observer))
+        if (auto report = advance_once({h}, {fastest, !model.solver.squeezes_slowly}, state, network, model, observer))
             return *std::move(report);
     }
     const double count = std::min<double>(most_sub_steps, std::max(2.0, std::ceil(move / (usual_move * d))));

@@ -188,6 +188,7 @@ TEST_CASE("a heavy sphere squeezes a light one by the same in steps of any lengt
         World world = make_world(law_of(0.0), production_settings(Stabilisation::matched), h);
         world.model.solver.push_out_speed = push_out_speed;
         world.model.solver.tolerance = 1e-3;
+        world.model.solver.squeezes_slowly = true;
         world.add_plane(Vec3::Zero(), Vec3::UnitZ());
         world.add_sphere(Vec3(0, 0, 0.5 * d));
         world.add_sphere(
@@ -211,6 +212,7 @@ TEST_CASE("no step is split for spheres that are squeezed because they are soft"
     World world = make_world(
         {0.0, 0.0, 0.0, mass * std::pow(speed / (0.5 * d), 2)}, production_settings(Stabilisation::matched), time_step);
     world.model.solver.push_out_speed = push_out_speed;
+    world.model.solver.squeezes_slowly = true;
     world.add_plane(Vec3::Zero(), Vec3::UnitZ());
     world.add_sphere(Vec3(0, 0, 0.5 * d), Vec3(0, 0, -speed));
     double deepest = 0.0;
