@@ -213,8 +213,8 @@ void print_error(const RunSummary& summary)
         100.0 * e.worst_overlap, e.worst_overlap_time);
     say("  {:<28} {}\n", "moves over 0.1 d in a step", e.long_moves);
     if (e.split_steps > 0)
-        say("  {:<28} {} of {}, up to {} each\n", "steps split into sub-steps", e.split_steps, summary.steps,
-            e.most_sub_steps);
+        say("  {:<28} {} of {}, up to {} sub-steps each\n", "steps split for fast spheres", e.split_steps,
+            summary.steps, e.most_sub_steps);
     say("  {:<28} {:.2g} N s\n", "worst cone violation", e.cone_violation);
     if (e.corrections > 0)
         say("  {:<28} {} of {} ({:.2g} %)\n", "pressure corrections refused", e.refused_corrections, e.corrections,

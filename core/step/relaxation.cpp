@@ -41,7 +41,7 @@ int relax_overlaps(State& state, const Model& model, double worst_overlap)
     int steps = 0;
     while (worst_overlap > good_overlap * model.mean_diameter && steps < most_steps) {
         stop(moved);
-        const auto report = advance_once({relaxing.time_step}, {}, moved, network, relaxing, {});
+        const auto report = advance_once({relaxing.time_step}, infinity, moved, network, relaxing, {});
         worst_overlap = report->contacts.worst_overlap; // before the step, which makes it smaller
         ++steps;
     }

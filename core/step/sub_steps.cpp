@@ -60,9 +60,8 @@ StepReport make_sub_steps(int count, double wall_speed, State& state, ContactNet
     while (made < count) {
         const StepLength step{model.time_step, count, shallow_share * model.min_diameter};
         const double too_fast = longest_move * model.min_diameter / step.h() - wall_speed;
-        const StepLimits limits =
-            2 * count <= most_sub_steps ? StepLimits{too_fast, !model.solver.squeezes_slowly} : StepLimits{};
-        auto report = advance_once(step, limits, state, network, model, observer);
+        const double fastest = 2 * count <= most_sub_steps ? too_fast : infinity;
+        auto report = advance_once(step, fastest, state, network, model, observer);
         if (!report) {
             count *= 2;
             made *= 2;
@@ -87,13 +86,14 @@ StepReport advance(State& state, ContactNetwork& network, const Model& model, co
     const double h = model.time_step, d = model.min_diameter;
     const double wall_speed = fastest_wall(state, network, model);
     const double move = h * (fastest_sphere(state, model) + wall_speed);
-    if (!(move > split_from * d)) { // also where there is no diameter yet, or no number
-        const bool is_slow = state.count() == 0 || !(greatest_gain * move > longest_move * d);
-        const double fastest = is_slow ? infinity : longest_move * d / h - wall_speed;
-        if (auto report = advance_once({h}, {fastest, !model.solver.squeezes_slowly}, state, network, model, observer))
+    // also where there is no diameter yet, or no number
+    if (state.count() == 0 || !(greatest_gain * move > longest_move * d))
+        return *advance_once({h}, infinity, state, network, model, observer);
+
+    if (move <= split_from * d)
+        if (auto report = advance_once({h}, longest_move * d / h - wall_speed, state, network, model, observer))
             return *std::move(report);
-    }
-    const double count = std::min<double>(most_sub_steps, std::max(2.0, std::ceil(move / (usual_move * d))));
+    const double count = std::clamp(std::ceil(move / (usual_move * d)), 2.0, static_cast<double>(most_sub_steps));
     return make_sub_steps(static_cast<int>(count), wall_speed, state, network, model, observer);
 }
 

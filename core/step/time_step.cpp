@@ -22,12 +22,6 @@ constexpr std::int64_t audit_interval = 16;         ///< steps; gains of contact
 constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
 constexpr std::size_t few_spheres = 1000;           ///< that one thread takes faster than several
 
-// A heavy sphere squeezes a light one against others as if through a spring that is made for the light one. Where it is
-// deep shorter steps make that spring stiffer, the square of their number (feedback_share).
-constexpr double deep = 0.05;             ///< diameters of the smaller sphere: sub-steps have all of their stiffness
-constexpr double longest_closing = 0.005; ///< of a deep contact in a step, the same
-constexpr double greatest_hold = 3.0;     ///< of a spring, by its overlap: that of half the step holds 4
-
 /// Brings the spheres into the order of a space-filling curve now and then, for the sake of the cache.
 void renumber_along_curve(State& state, ContactNetwork& network, const Model& model)
 {
@@ -129,58 +123,6 @@ double fastest_of(const State& state, const std::vector<Flight>& flights, double
     return fastest;
 }
 
-/// The diameter of the contact's sphere, of two the smaller.
-double diameter(const TileContacts& contacts, std::size_t k, bool at_wall, const State& state)
-{
-    const double radius = state.radius(contacts.a(k));
-    return 2.0 * (at_wall ? radius : std::min(radius, state.radius(contacts.b(k))));
-}
-
-/// Whether a spring is as stiff as the sweeps can carry, and not as its material, so that shorter steps make it
-/// stiffer.
-bool is_as_sweeps_can(const ContactTerms& terms, double min_sweeps)
-{
-    return terms.compliance > 0.0 &&
-           terms.compliance * min_sweeps < (1.0 + 1e-9) * sigma_per_sweep * terms.inverse_mass_sum;
-}
-
-/// Whether there is a deep contact with such a spring, and not a jammed one, that has this property.
-template <class Property>
-bool is_any_deep(const ContactNetwork& network, const State& state, const Model& model, Property property)
-{
-    const auto has_one = [&](const std::vector<TileContacts>& tiles, bool at_wall) {
-        return std::ranges::any_of(tiles, [&](const TileContacts& contacts) {
-            return std::ranges::any_of(contacts.indices(), [&](std::size_t k) {
-                const ContactGeometry geometry = contacts.geometry(k);
-                return -geometry.gap > deep * diameter(contacts, k, at_wall, state) && !geometry.touch.is_jammed() &&
-                       is_as_sweeps_can(contacts.terms(k), model.solver.min_sweeps) && property(contacts, k, at_wall);
-            });
-        });
-    };
-    return has_one(network.contacts.spheres, false) || has_one(network.contacts.walls, true);
-}
-
-/// Whether a deep contact carries more than its spring in a step of this length could hold: shorter steps have pressed
-/// it, and this one would give back less than they have stored.
-bool lets_springs_go_slack(const ContactNetwork& network, const State& state, const Model& model, double h)
-{
-    return is_any_deep(network, state, model, [&](const TileContacts& contacts, std::size_t k, bool) {
-        const double held = contacts.terms(k).compliance * contacts.impulse(k).dot(contacts.normal(k));
-        return held > greatest_hold * 4.0 * upsilon / h * -contacts.geometry(k).gap;
-    });
-}
-
-/// Whether a deep contact closes further than it should in a step.
-bool squeezes_quickly(const ContactNetwork& network, const State& state, const Model& model, double h)
-{
-    return is_any_deep(network, state, model, [&](const TileContacts& contacts, std::size_t k, bool at_wall) {
-        Vec3 u = state.motion[contacts.a(k)].velocity;
-        if (!at_wall) u -= state.motion[contacts.b(k)].velocity;
-        if (contacts.has_moving_walls()) u -= contacts.wall(k).velocity;
-        return -h * u.dot(contacts.normal(k)) > longest_closing * diameter(contacts, k, at_wall, state);
-    });
-}
-
 } // namespace
 
 void SearchReport::then(const SearchReport& next)
@@ -220,8 +162,8 @@ PreparedStep prepare_step(
     return prepared;
 }
 
-std::optional<StepReport> advance_once(const StepLength& step, const StepLimits& limits, State& state,
-    ContactNetwork& network, const Model& model, const PhaseObserver& observer)
+std::optional<StepReport> advance_once(const StepLength& step, double fastest, State& state, ContactNetwork& network,
+    const Model& model, const PhaseObserver& observer)
 {
     const double h = step.h();
     const auto enter = [&](Phase phase) {
@@ -230,10 +172,8 @@ std::optional<StepReport> advance_once(const StepLength& step, const StepLimits&
 
     // Who touches whom, and under which law?
     const PreparedStep prepared = prepare_step(state, network, model, step, observer);
-    const bool is_deep = !limits.may_squeeze && prepared.contacts.worst_overlap > deep * model.min_diameter;
-    if (is_deep && lets_springs_go_slack(network, state, model, h)) return std::nullopt;
     PistonGroup pistons(network, state, model, h);
-    if (limits.fastest < infinity || is_deep) network.before.take(state);
+    if (fastest < infinity) network.before.take(state);
     StepReport report;
     report.search = prepared.search;
     report.contacts = prepared.contacts;
@@ -260,8 +200,7 @@ std::optional<StepReport> advance_once(const StepLength& step, const StepLimits&
     // The contact impulses: every contact in turn until all laws hold.
     report.solve = solve_contacts(network, pistons, state.motion, model.physics, model.solver, warm_size, sweeps);
     pistons.store(network, state);
-    if (fastest_of(state, prepared.flights, h, limits.fastest) > limits.fastest ||
-        (is_deep && squeezes_quickly(network, state, model, h))) {
+    if (fastest_of(state, prepared.flights, h, fastest) > fastest) {
         network.before.put_back(state);
         return std::nullopt;
     }

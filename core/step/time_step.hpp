@@ -55,9 +55,8 @@ struct StepReport {
 /// struck or thrown back within the step meets others unseen, so it must not come so far that the next step finds it on
 /// their other side. Hence a step in which the fastest would move further than 0.2 smallest diameters is split into
 /// equal sub-steps, each a whole step of the method, in which it moves 0.1; and a step or sub-step after whose impulses
-/// anything would move further than 0.4 is taken back and made in smaller ones, and so is one in which a heavy sphere
-/// squeezes a light one quickly. Where walls move, their speed counts as well. Sub-steps keep what depends on the
-/// length of the step: the stiffness of shallow contacts, the slowest impact.
+/// anything would move further than 0.4 is taken back and made in smaller ones. Where walls move, their speed counts as
+/// well. Sub-steps keep what depends on the length of the step: the stiffness of shallow contacts, the slowest impact.
 ///
 /// `network` belongs to `state`: it carries the candidate list and the impulses from step to step, and has the contacts
 /// of the last sub-step, whose impulses have acted for `carried.impulse_step`. (In sub_steps.cpp.)
@@ -77,15 +76,9 @@ struct PreparedStep {
 PreparedStep prepare_step(State& state, ContactNetwork& network, const Model& model, const StepLength& step,
     const PhaseObserver& observer = {});
 
-/// What a step may do; one that does more is taken back.
-struct StepLimits {
-    double fastest = infinity; ///< of spheres and pistons [m/s]
-    bool may_squeeze = true;   ///< deep contacts may close quickly, or carry more than their springs hold
-};
-
-/// The method itself: one step of this length, velocities first, then positions. Nothing if it would go beyond
-/// these limits: then nothing has moved, and velocities are as they were.
-std::optional<StepReport> advance_once(const StepLength& step, const StepLimits& limits, State& state,
-    ContactNetwork& network, const Model& model, const PhaseObserver& observer);
+/// The method itself: one step of this length, velocities first, then positions. Nothing if its impulses have made a
+/// sphere or a piston faster than `fastest` [m/s]: then nothing has moved, and velocities are as they were.
+std::optional<StepReport> advance_once(const StepLength& step, double fastest, State& state, ContactNetwork& network,
+    const Model& model, const PhaseObserver& observer);
 
 } // namespace talus

@@ -25,7 +25,6 @@ struct SolverSettings {
     double restitution_threshold = 3.0; ///< impacts slower than this times gravity × step do not rebound
     double push_out_speed = infinity;   ///< cap on the speed with which overlap is undone [m/s]
     bool pressure_scaling = false;      ///< before the sweeps, see pressure_scaling/; with `projected` only
-    bool squeezes_slowly = false;       ///< steps in which a contact is squeezed are split, METHOD; with `matched` only
 };
 
 /// How long a step is: the model's time step, or one of the equal sub-steps into which it is split where something is

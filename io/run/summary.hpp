@@ -116,7 +116,7 @@ struct ErrorSummary {
     double worst_overlap = 0.0;      ///< [d]
     double worst_overlap_time = 0.0; ///< when that was [s]
     std::int64_t long_moves = 0;     ///< moves of a sphere by more than 0.1 d in a step
-    std::int64_t split_steps = 0;    ///< that were made in several (core/METHOD.md, the length of the step)
+    std::int64_t split_steps = 0;    ///< that were made in several for the sake of fast spheres
     std::int64_t most_sub_steps = 1; ///< of a step
     double cone_violation = 0.0;     ///< worst |λ_t| − μ λ_n [N s]
     std::int64_t corrections = 0;    ///< of pressures (pressure_scaling.hpp) that were asked for; 0 where none scales

@@ -189,11 +189,6 @@ SolverChoice complete_solver(SolverSettings solver, const scene::Scene& scene, c
                 text("tolerance %g, for impacts without gravity, whose energy nothing stills", solver.tolerance);
     }
     solver.pressure_scaling = scaled && solver.stabilisation == Stabilisation::projected;
-    // What walls that move as told squeeze should yield (jammed contacts) and not store their work in stiffer springs.
-    solver.squeezes_slowly = solver.stabilisation == Stabilisation::matched && !model.physics.moving_walls &&
-                             all.heaviest >= very_heavy * all.lightest;
-    if (solver.squeezes_slowly && !explanation.empty())
-        explanation += "; steps are split where it squeezes others fast";
     if (solver.pressure_scaling && depth >= very_deep && table.min_sweeps == 0)
         solver.min_sweeps = std::clamp(sweeps_in_very_deep, solver.min_sweeps, solver.max_sweeps);
     return {solver, step_factor, explanation};

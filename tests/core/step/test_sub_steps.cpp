@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 #include <omp.h>
 
 namespace talus::test
@@ -178,52 +177,6 @@ TEST_CASE("a light sphere between a heavy fast one and a thin wall stays on its 
     }
     CHECK(lowest > 0.0);
     CHECK(world.velocity(heavy).norm() <= 100.0 * (1 + 1e-9));
-}
-
-TEST_CASE("a heavy sphere squeezes a light one by the same in steps of any length", "[sub_steps]")
-{
-    // A steel ball ten times as wide comes down on a bead on the floor, through springs that are made for the bead: in
-    // steps that are never split the bead is squeezed by 0.50, 0.27 and 0.13 of its diameter.
-    const auto deepest_overlap = [](double h) {
-        World world = make_world(law_of(0.0), production_settings(Stabilisation::matched), h);
-        world.model.solver.push_out_speed = push_out_speed;
-        world.model.solver.tolerance = 1e-3;
-        world.model.solver.squeezes_slowly = true;
-        world.add_plane(Vec3::Zero(), Vec3::UnitZ());
-        world.add_sphere(Vec3(0, 0, 0.5 * d));
-        world.add_sphere(
-            Vec3(0, 0, 6 * d), Vec3(0, 0, -0.03 * d / time_step), Vec3::Zero(), 5 * d, 2.88 * standard_density);
-        double deepest = 0.0;
-        while (world.state.time < 400 * time_step) {
-            world.step();
-            deepest = std::max(deepest, world.report.contacts.worst_overlap / d);
-        }
-        return deepest;
-    };
-    const double fine = deepest_overlap(0.25 * time_step);
-    CHECK(fine < 0.15);
-    for (const double share : {1.0, 0.5}) CHECK(deepest_overlap(share * time_step) == within(0.2, fine));
-}
-
-TEST_CASE("no step is split for spheres that are squeezed because they are soft", "[sub_steps]")
-{
-    // Squeezed by half of its diameter, which takes 40 steps.
-    const double speed = 0.02 * d / time_step, mass = std::numbers::pi / 6 * d * d * d * standard_density;
-    World world = make_world(
-        {0.0, 0.0, 0.0, mass * std::pow(speed / (0.5 * d), 2)}, production_settings(Stabilisation::matched), time_step);
-    world.model.solver.push_out_speed = push_out_speed;
-    world.model.solver.squeezes_slowly = true;
-    world.add_plane(Vec3::Zero(), Vec3::UnitZ());
-    world.add_sphere(Vec3(0, 0, 0.5 * d), Vec3(0, 0, -speed));
-    double deepest = 0.0;
-    int most_sub_steps = 1;
-    for (int k = 0; k < 50; ++k) {
-        world.step();
-        deepest = std::max(deepest, world.report.contacts.worst_overlap / d);
-        most_sub_steps = std::max(most_sub_steps, world.report.sub_steps);
-    }
-    CHECK(deepest > 0.3);
-    CHECK(most_sub_steps == 1);
 }
 
 TEST_CASE("a wall that moves at 100 m/s does not pass a sphere", "[sub_steps]")
