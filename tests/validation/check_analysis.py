@@ -18,9 +18,10 @@ import numpy
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).resolve().parents[2] / "postprocess")]
 from case import Row, mean_and_error, told  # noqa: E402  found by the line above
 from cases import (beverloo, chung_ooi, clogging, column_collapse, conical_hopper, crater, drum,  # noqa: E402
-                   force_distribution, granular_gas, incline, janssen, packings, plane_shear, repose, same_scene,
+                   force_distribution, granular_gas, incline, janssen, packings, plane_shear, repose,
                    segregation)
 from deck import DeckRun  # noqa: E402
+from measures import line_of_tops  # noqa: E402
 from page import verdict_of, with_error  # noqa: E402
 
 
@@ -174,7 +175,7 @@ class Analysis(unittest.TestCase):
         along, across = random.uniform(0, 1, 20000), random.integers(0, 5, 20000)
         below = random.uniform(0, 1, 20000)  # of each place, tops from the floor up to a slope of 20°
         tops = (1 - along * numpy.tan(numpy.radians(20))) * below
-        angle = same_scene.line_of_tops(along, across, tops, numpy.linspace(0, 1, 21))
+        angle = line_of_tops(along, across, tops, numpy.linspace(0, 1, 21))
         self.assertAlmostEqual(angle, -20, delta=0.5)
 
     def test_crater(self):

@@ -19,3 +19,14 @@ def mean_of_highest(tops, *places):
     highest = numpy.full(cell.max() + 1, -numpy.inf)
     numpy.maximum.at(highest, cell, tops)
     return float(highest.mean())
+
+
+def line_of_tops(along, across, tops, edges):
+    """Angle [deg] of the line through the means over strips of the highest tops in bins along it."""
+    middles, heights = [], []
+    for low, high in zip(edges, edges[1:]):
+        here = (along >= low) & (along < high)
+        if here.any():
+            middles.append(0.5 * (low + high))
+            heights.append(mean_of_highest(tops[here], across[here]))
+    return math.degrees(math.atan(numpy.polyfit(middles, heights, 1)[0]))

@@ -21,13 +21,11 @@ Tolerances, fixed before the runs:
 - rolling friction 0.2 less none, friction 0.5: 3° or more, half of what the law of 2002 gives from 0.05 to 0.2.
 - the largest deviation from that law where it has rolling friction and friction is 0.3 to 1: ± 4°.
 """
-import math
-
 import numpy
 
 from case import SEEDS, Row, over_seeds, told
 from deck import spheres_of
-from measures import mean_of_highest
+from measures import line_of_tops
 
 TITLE = "angle of repose"
 FINDINGS = """The least rise is that from sliding friction 0.5 to 1 with rolling friction 0.05, just too far below zero,
@@ -75,11 +73,8 @@ def angle_of_tops(run):
     """[°] of the line through the means over strips of the highest tops in the last frame, where the sensor lies."""
     spheres = spheres_of(run)[-1]
     x, y, z = spheres.positions.T
-    edges = numpy.linspace(0.04, 0.16, 13)
-    strip = numpy.digitize(x, edges)
-    heights = [mean_of_highest((z + spheres.radii)[here], numpy.floor(y[here] / 0.01))
-               for here in ((strip == k) & (z > 0) for k in range(1, len(edges)))]
-    return math.degrees(math.atan(-numpy.polyfit(0.5 * (edges[1:] + edges[:-1]), heights, 1)[0]))
+    here = z > 0
+    return -line_of_tops(x[here], numpy.floor(y[here] / 0.01), (z + spheres.radii)[here], numpy.linspace(0.04, 0.16, 13))
 
 
 def table(runs):

@@ -20,7 +20,7 @@ import numpy
 
 from case import Row, mean_and_error, over_seeds
 from deck import spheres_of
-from measures import mean_of_highest
+from measures import line_of_tops
 from page import with_error
 
 TITLE = "the same hopper, pile and drum in LIGGGHTS and LAMMPS"
@@ -65,17 +65,6 @@ def flow(run):
     window = frames(run, FLOWING)
     above = [numpy.count_nonzero(spheres.positions[:, 2] > 0) for spheres in window]
     return -float(numpy.polyfit([spheres.time for spheres in window], above, 1)[0])
-
-
-def line_of_tops(along, across, tops, edges):
-    """Angle [deg] of the line through the means over strips of the highest tops in bins along it."""
-    middles, heights = [], []
-    for low, high in zip(edges, edges[1:]):
-        here = (along >= low) & (along < high)
-        if here.any():
-            middles.append(0.5 * (low + high))
-            heights.append(mean_of_highest(tops[here], across[here]))
-    return math.degrees(math.atan(numpy.polyfit(middles, heights, 1)[0]))
 
 
 def angle_of_pile(run):
