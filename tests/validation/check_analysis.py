@@ -18,8 +18,7 @@ import numpy
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).resolve().parents[2] / "postprocess")]
 from case import Row, mean_and_error, told  # noqa: E402  found by the line above
 from cases import (beverloo, chung_ooi, clogging, column_collapse, conical_hopper, crater, drum,  # noqa: E402
-                   force_distribution, granular_gas, incline, janssen, packings, plane_shear, repose,
-                   segregation)
+                   force_distribution, granular_gas, incline, janssen, packings, plane_shear, repose, segregation)
 from deck import DeckRun  # noqa: E402
 from measures import line_of_tops  # noqa: E402
 from page import verdict_of, with_error  # noqa: E402

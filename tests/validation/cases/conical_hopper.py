@@ -21,9 +21,9 @@ import math
 import numpy
 
 from case import Row, over_seeds, told
-from deck import spheres_of
 
 from .beverloo import DIAMETER, PLAIN, fit, flows
+from .same_scene import frames
 
 TITLE = "conical hopper"
 FINDINGS = """Cones give more than the laws say, and only a part of it is understood. Through outlets of 6 and 8 d k is
@@ -71,10 +71,8 @@ def rose_tanaka(angle, stagnant):
 
 def beads_out(run):
     """That leave between two frames, of Talus or of LIGGGHTS."""
-    frames = spheres_of(run)
-    above = [next(numpy.count_nonzero(spheres.positions[:, 2] > 0) for spheres in frames if abs(spheres.time - time) < 1e-3)
-             for time in COUNTED]
-    return above[0] - above[1]
+    before, after = (numpy.count_nonzero(spheres.positions[:, 2] > 0) for spheres in frames(run, COUNTED))
+    return before - after
 
 
 def ways(run, angle):

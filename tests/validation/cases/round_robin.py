@@ -53,7 +53,8 @@ THEIRS_SMOOTH = over_seeds("penetration_smooth_liggghts", "penetration", SMOOTH,
 ALONE = {"Talus": over_seeds("ball_on_bead", "ball_on_bead", seeds=(1,)),
          **{f"LIGGGHTS, {modulus} Pa": over_seeds(f"ball_on_bead_liggghts_{modulus}", "ball_on_bead", seeds=(1,),
                                                   program="liggghts", modulus=modulus) for modulus in ("1e9", "5e7")}}
-RUNS = [*OURS, *THEIRS, *QUARTER, *OURS_SMOOTH, *THEIRS_SMOOTH, *(run for simulations in ALONE.values() for run in simulations)]
+RUNS = [*OURS, *THEIRS, *QUARTER, *OURS_SMOOTH, *THEIRS_SMOOTH,
+        *(run for simulations in ALONE.values() for run in simulations)]
 
 
 def track(run):
@@ -91,11 +92,11 @@ def judge(runs):
     mean = numpy.mean([numpy.interp(times, time, low) for time, low, _ in theirs], axis=0)
     yield Row("penetration: mean difference of the ball's height [mm]", "0 (LIGGGHTS)", "4", 0, 4, tuple(
         1000 * float(numpy.mean(abs(numpy.interp(times, time, low) - mean))) for time, low, _ in ours))
-    for name, ours, theirs in (("", OURS, THEIRS), (", a quarter of the step (one run)", QUARTER, THEIRS),
-                               (", no friction", OURS_SMOOTH, THEIRS_SMOOTH)):
+    for name, simulations, (beside,) in (("", OURS, THEIRS), (", a quarter of the step (one run)", QUARTER, THEIRS),
+                                         (", no friction", OURS_SMOOTH, THEIRS_SMOOTH)):
         yield told(f"penetration{name}: speed with which the ball comes back from the floor [m/s]",
-                   (speed_from_floor(runs[run.name]) for run in ours),
-                   f"{number(speed_from_floor(runs[theirs[0].name]))} (LIGGGHTS)")
+                   (speed_from_floor(runs[run.name]) for run in simulations),
+                   f"{number(speed_from_floor(runs[beside.name]))} (LIGGGHTS)")
     for name, simulations in ALONE.items():
         yield told(f"a ball sent with {SENT} m/s at one bead on the floor: speed with which it comes back [m/s], {name}",
                    (rebound(runs[run.name]) for run in simulations), f"{0.4 * SENT:.2f} (Newton)")
