@@ -68,11 +68,11 @@ inline constexpr double crushed_overlap = 0.125;
 /// What a contact hands on from one step to the next; zeros where nothing is.
 struct alignas(32) CarriedContact {
     Vec3 impulse = Vec3::Zero(); ///< λ [N s]
-    float free_overlap = 0.0F;   ///< f: what of its overlap is no spring [m]; known where it was loaded: law.hpp
+    float compression = 0.0F;    ///< κ: what of its overlap a load has pressed [m]
     TouchRecord touch;
     std::uint8_t unused[3] = {}; ///< kernels read the last eight bytes as one number
 
-    void persist(Archive& archive) { archive(impulse, free_overlap, touch); }
+    void persist(Archive& archive) { archive(impulse, compression, touch); }
 };
 static_assert(sizeof(CarriedContact) == 32);
 

@@ -16,11 +16,12 @@ namespace
 constexpr double touching = 1e-9;   ///< overlap of spheres laid side by side, for rounding [smallest diameters]
 constexpr double least_turn = 1e-9; ///< of a wall's normal in a step: less is rounding
 
-StepConstants step_constants(const Model& model, const StepLength& length)
+StepConstants step_constants(const Model& model, const StepLength& length, double h_before)
 {
     const double h = length.h();
     StepConstants step{};
     step.law = {.h = h,
+        .h_before = h_before,
         .threshold_speed = model.solver.restitution_threshold * model.gravity.norm() * length.whole,
         .rigid = model.solver.stabilisation == Stabilisation::projected,
         .min_sweeps = static_cast<double>(model.solver.min_sweeps),
@@ -202,9 +203,9 @@ void ContactSurvey::then(const ContactSurvey& next)
 }
 
 ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, const Model& model,
-    const StepLength& length, const std::vector<PlacedWall>& walls)
+    const StepLength& length, double h_before, const std::vector<PlacedWall>& walls)
 {
-    const StepConstants step = step_constants(model, length);
+    const StepConstants step = step_constants(model, length, h_before);
     network.contacts.resize(network.list, model.physics, state.count());
     SphereAssembly spheres(network, state, model, step);
     const auto tiles = static_cast<std::int64_t>(network.list.tiles.count());

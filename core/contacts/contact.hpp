@@ -49,9 +49,9 @@ struct ContactGeometry {
     double wall_level = 0.0; ///< n·x at which the gap to the wall is zero after the step [m]; unused between spheres
     std::uint32_t slot = 0;  ///< where its impulse is carried
     ContactKind kind = ContactKind::open;
-    bool waits = false;        ///< it is left out of the problem where one of its spheres has an impact
-    TouchRecord touch = {};    ///< what is known from the steps before; after carry_impulses with this one
-    float free_overlap = 0.0F; ///< f: what of the overlap is no spring [m]
+    bool waits = false;       ///< it is left out of the problem where one of its spheres has an impact
+    TouchRecord touch = {};   ///< what is known from the steps before; after carry_impulses with this one
+    float compression = 0.0F; ///< κ: what of the overlap a load has pressed [m]
 };
 
 } // namespace talus

@@ -59,7 +59,7 @@ void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms
     const auto bit = static_cast<std::uint8_t>(1U << lane);
     record.gap[lane] = own.gap;
     record.wall_level[lane] = own.wall_level;
-    record.free_overlap[lane] = own.free_overlap;
+    record.compression[lane] = own.compression;
     record.slot[lane] = own.slot;
     record.kind[lane] = own.kind;
     set_touch(k, own.touch);
@@ -149,7 +149,7 @@ ContactGeometry TileContacts::geometry(std::size_t k) const
     const RecordPack& record = records_[k / pack_size];
     const std::size_t lane = k % pack_size;
     return {record.gap[lane], record.wall_level[lane], record.slot[lane], record.kind[lane], waits(k),
-        std::bit_cast<TouchRecord>(record.touch[lane]), record.free_overlap[lane]};
+        std::bit_cast<TouchRecord>(record.touch[lane]), record.compression[lane]};
 }
 
 RollingRow TileContacts::rolling(std::size_t k) const

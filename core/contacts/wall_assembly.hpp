@@ -51,7 +51,7 @@ public:
         touch_.stiffness[lane] = law.stiffness;
         const CarriedContact& carried = carried_.contact[at.slot];
         for (int d = 0; d < 3; ++d) touch_.carried[d][lane] = carried.impulse[d];
-        touch_.free_overlap[lane] = carried.free_overlap;
+        touch_.compression[lane] = carried.compression;
         touch_.loaded[lane] = -static_cast<std::int64_t>(carried.touch.is_loaded());
         touch_.jammed[lane] = -static_cast<std::int64_t>(carried.touch.is_jammed());
         touch_.gap[lane] = at.gap;
@@ -106,7 +106,7 @@ private:
         const double gap = touch_.gap[lane];
         note_overlap(gap);
         CarriedContact& carried = carried_.contact[slot];
-        carried.free_overlap = static_cast<float>(touch_.free_overlap[lane]);
+        carried.compression = static_cast<float>(touch_.compression[lane]);
         const bool waits = touch_.waits[lane];
         if (!touch_.in_problem[lane] || (waits && one_by_one_)) return;
 
@@ -116,7 +116,7 @@ private:
                           : touch_.open[lane] ? ContactKind::open
                                               : ContactKind::resting;
         contacts_.copy(k, contact_, static_cast<std::size_t>(lane),
-            {gap, wall_level_[lane], slot, kind, waits, carried.touch, carried.free_overlap});
+            {gap, wall_level_[lane], slot, kind, waits, carried.touch, carried.compression});
         if (contacts_.has_moving_walls()) contacts_.set_wall(k, row_[lane]);
         if (contacts_.has_rolling()) {
             const Motion& m = state_.motion[sphere];

@@ -36,7 +36,7 @@ static_assert(sizeof(ContactPack) == 896);
 struct alignas(64) RecordPack {
     double gap[pack_size];         ///< g at the beginning of the step [m]; < 0 is overlap
     double wall_level[pack_size];  ///< n·x at which the gap to the wall is zero after the step [m]; at walls
-    float free_overlap[pack_size]; ///< f: what of the overlap is no spring [m]
+    float compression[pack_size];  ///< κ: what of the overlap a load has pressed [m]
     std::uint32_t slot[pack_size]; ///< where it is kept what it carries
     ContactKind kind[pack_size];
     std::uint8_t touch[pack_size]; ///< TouchRecord: what is known from the steps before

@@ -19,13 +19,10 @@ inline constexpr double sigma_per_sweep = 0.2;
 /// Share of an overlap that one position pass of `projected` removes: that of the note's step, 4Υ.
 inline constexpr double projected_share = 4.0 * upsilon;
 
-/// What remains in a step of an overlap that is no spring. With less a pile that is poured gains energy; with 0.9 its
-/// beads overlap more.
-inline constexpr double free_overlap_kept = 0.7;
-
 /// What the laws of all contacts of a step share.
 struct LawOfStep {
     double h;                                ///< of this step or sub-step [s]
+    double h_before = h;                     ///< of the one before [s]
     double threshold_speed = 0.0;            ///< slowest impact: that of the whole step [m/s]
     bool rigid = false;                      ///< `projected`
     double min_sweeps = 2.0;                 ///< N_min
@@ -47,10 +44,9 @@ template <class N> struct NormalLaw {
 /// What the law of a contact depends on.
 template <class N> struct ContactEvent {
     Answer<N> impact, open; ///< its kind; else it rests
-    N gap;                  ///< g, of a resting contact that of its spring, g + f [m]
+    N gap;                  ///< g, of a resting contact −κ, with the compression κ of its spring [m]
     N u_n;                  ///< of v⁽⁰⁾, before gravity [m/s]
     N inverse_mass_sum;     ///< W [1/kg]
-    N carried_normal;       ///< λ_n⁽⁰⁾ [N s]
     N restitution;          ///< e
     N stiffness;            ///< k [N/m]
     Answer<N> jammed = {};  ///< TouchRecord
@@ -82,15 +78,17 @@ template <class N> [[gnu::always_inline]] inline N spring_energy(const N& gap, c
     return 2.0 * upsilon / (compliance * h * h) * gap * gap;
 }
 
-/// The part of an overlap that is no spring yet: an impact has left it, or has closed the gap of another contact, and
-/// no load has pressed it. If it pushed at once, it would give back what nobody has stored. A share of it becomes a
-/// spring in each step.
-/// @param before what it was in the step before; used where the contact was loaded there [m]
+/// The compression κ of a contact's spring: how much of its overlap a load has pressed [m]. What an impact leaves
+/// overlapping, or closes beside it, has stored nothing, and must not push as if it had. It becomes compression with
+/// the push-out speed p, so that a deep overlap does not become a shot.
+/// @param before κ of the step before; @param u_n with which the spheres moved in it
 template <class N>
-[[gnu::always_inline]] inline N free_overlap(const N& gap, const N& before, const Answer<N>& was_loaded)
+[[gnu::always_inline]] inline N compression(
+    const N& gap, const N& before, const N& u_n, const Answer<N>& was_loaded, const LawOfStep& step)
 {
     const N depth = larger<N>(N{}, -gap);
-    return free_overlap_kept * (was_loaded ? smaller<N>(before, depth) : depth);
+    const N pressed = was_loaded ? larger<N>(N{}, before - step.h_before * u_n) : N{};
+    return smaller<N>(depth, pressed + step.h * step.push_out_speed);
 }
 
 /// What a sub-step takes of the feedback on overlap. The stiffness that sweeps can carry goes with 1/h², so with all of
@@ -115,19 +113,16 @@ template <class N> [[gnu::always_inline]] inline N turned_back(const ContactEven
     return larger<N>(N{}, smaller<N>(-event.u_n, -0.5 * event.u_n_turned));
 }
 
-/// `matched` (the default): the note's own step, eq. (2), with a compliance that the sweeps can carry. Of the feedback
-/// on overlap, what exceeds the need of the carried impulse is capped, so that a deep overlap does not become a shot.
-/// A jammed contact does not hold what it carries: it parts with the cap at most, and stores nothing.
+/// `matched` (the default): the note's own step, eq. (2), with a compliance that the sweeps can carry. A jammed contact
+/// parts with the push-out speed at most, and stores nothing.
 template <class N>
 [[gnu::always_inline]] inline NormalLaw<N> matched_law(const ContactEvent<N>& event, const LawOfStep& step)
 {
-    const N cap = N{} + step.push_out_speed;
     const N compliance = matched_compliance<N>(event.stiffness, event.inverse_mass_sum, step.h, step.min_sweeps);
     const N share = step.parts > 1.0 ? feedback_share<N>(event, step) : N{} + 1.0;
-    const N held = compliance * event.carried_normal;
-    const N push_out = smaller<N>(-4.0 / step.h * upsilon * share * event.gap - held, cap);
-    const N yielding = smaller<N>(-4.0 / step.h * upsilon * event.gap, cap);
-    return {event.jammed ? yielding : held + push_out + upsilon * event.u_n, compliance, event.jammed ? N{} : share};
+    const N push_out = -4.0 / step.h * upsilon * event.gap;
+    const N yielding = smaller<N>(push_out, N{} + step.push_out_speed);
+    return {event.jammed ? yielding : share * push_out + upsilon * event.u_n, compliance, event.jammed ? N{} : share};
 }
 
 /// `projected`: rigid, u_n ≥ 0; overlap is removed by moving the spheres (position_projection.hpp). A jammed contact

@@ -60,13 +60,13 @@ template <int width> [[gnu::always_inline]] inline void scatter_four(Numbers<wid
     }
 }
 
-/// Records of four numbers with which a slot keeps what it carries: λ, and f beside the TouchRecord in one number.
+/// Records of four numbers with which a slot keeps what it carries: λ, and κ beside the TouchRecord in one number.
 template <int width> struct CarriedRecords {
-    static constexpr int touch_bits = 32; ///< behind those of f
+    static constexpr int touch_bits = 32; ///< behind those of κ
     static constexpr std::size_t touch_byte = 3 * sizeof(double) + touch_bits / 8;
 
     Vector<width> impulse;
-    Numbers<width> free_overlap;
+    Numbers<width> compression;
     Flags<width> touch;
 
     [[gnu::always_inline]] static CarriedRecords gather(const std::uint32_t* slot, const double* carried)
@@ -87,7 +87,7 @@ template <int width> struct CarriedRecords {
     /// Puts them where they belong, those that have a place.
     [[gnu::always_inline]] void scatter(double* const* records) const
     {
-        const auto overlap = __builtin_convertvector(free_overlap, typename Register<width>::Floats);
+        const auto overlap = __builtin_convertvector(compression, typename Register<width>::Floats);
         typename Register<width>::Words low;
         __builtin_memcpy(&low, &overlap, sizeof low);
         const Flags<width> both = __builtin_convertvector(low, Flags<width>) | (touch << touch_bits);

@@ -181,12 +181,11 @@ template <int width>
     const F is_open = (!impact) & (gap > 0.0), rests = (!impact) & (gap <= 0.0);
     const N friction = number(contact.friction);
     const Vector<width> warm = warm_impulse<width>(Vector<width>::load(touch.carried, first), normal, friction, impact);
-    const N left = free_overlap<N>(gap, number(touch.free_overlap), loaded);
-    const N unsprung = (rests & (restitution > 0.0)) ? left : none;
-    const N spring = gap + unsprung;
-    const auto law = normal_law<N>(
-        {impact, is_open, spring, impact ? u_n : number(touch.u_n_before), w, warm.dot(normal), restitution,
-            number(touch.stiffness), load_flags<width>(touch.jammed + first), number(touch.u_n_turned)},
+    const N u_n_before = number(touch.u_n_before);
+    const F jammed = load_flags<width>(touch.jammed + first);
+    const N pressed = jammed ? none : compression<N>(gap, number(touch.compression), u_n_before, loaded, step.law);
+    const auto law = normal_law<N>({impact, is_open, rests & ~jammed ? -pressed : gap, impact ? u_n : u_n_before, w,
+                                       restitution, number(touch.stiffness), jammed, number(touch.u_n_turned)},
         step.law);
 
     const F bears = (restitution == 0.0) | loaded; // what an impact overlaps is no spring
@@ -204,8 +203,8 @@ template <int width>
     put(contact.normal_mass, 1.0 / (w + law.compliance));
     put(contact.tangent_mass, 1.0 / (w * (1.0 + step.inverse_inertia * arm_scale * arm_scale)));
     put(contact.inverse_mass_sum, w);
-    put(touch.stored_energy, bears ? stored_energy<N>(spring, law, step) : none);
-    store<width>(touch.free_overlap + first, unsprung);
+    put(touch.stored_energy, rests ? stored_energy<N>(-pressed, law, step) : none);
+    store<width>(touch.compression + first, pressed);
     store<width>(touch.in_problem + first, in_problem);
     store<width>(touch.impact + first, impact);
     store<width>(touch.open + first, is_open);
@@ -238,7 +237,7 @@ template <int width>
     store<width>(touch.stiffness + first, law[3]);
     const auto carried = CarriedRecords<width>::gather(slot, spheres.carried);
     carried.impulse.store(touch.carried, first);
-    store<width>(touch.free_overlap + first, carried.free_overlap);
+    store<width>(touch.compression + first, carried.compression);
     store<width>(touch.loaded + first, carried.touch > std::int64_t{0});
     store<width>(touch.jammed + first, carried.touch > std::int64_t{step.jam_steps});
     narrow<width>(record.touch + first, carried.touch);
@@ -264,7 +263,7 @@ template <int width>
     store<width>(sums.overlapping + first, load_flags<width>(sums.overlapping + first) - overlaps);
 
     store<width>(record.gap + first, gap);
-    store_floats<width>(record.free_overlap + first, load<width>(touch.free_overlap + first));
+    store_floats<width>(record.compression + first, load<width>(touch.compression + first));
     narrow<width>(reinterpret_cast<std::uint8_t*>(record.kind) + first, in_problem & ((impact & 2) | (open & 1)));
     narrow<width>(record.touch + first, within_reach & widened<width>(record.touch + first));
     record.in_problem |= static_cast<std::uint8_t>(bits<width>(in_problem) << first);
@@ -315,7 +314,7 @@ double hand_on(const ContactPack& contact, RecordPack& record, double deep, unsi
         deep_lanes |= bits<width>(is_deep) << first;
 
         typename Register<width>::Floats overlap;
-        __builtin_memcpy(&overlap, record.free_overlap + first, sizeof overlap);
+        __builtin_memcpy(&overlap, record.compression + first, sizeof overlap);
         const CarriedRecords<width> carries{
             {keeps ? impulse.x : none, keeps ? impulse.y : none, keeps ? impulse.z : none},
             __builtin_convertvector(overlap, Numbers<width>), touch};

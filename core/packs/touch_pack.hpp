@@ -33,7 +33,7 @@ struct alignas(64) TouchPack {
     double restitution[pack_size];  ///< e
     double stiffness[pack_size];    ///< k [N/m]
     double carried[3][pack_size];   ///< impulse of the step before [N s] …
-    double free_overlap[pack_size]; ///< … its f, and then that of this step [m]
+    double compression[pack_size];  ///< … its κ, and then that of this step [m]
     std::int64_t loaded[pack_size]; ///< in the step before: −1 for yes, 0 for no, as in all below
     std::int64_t jammed[pack_size];
 

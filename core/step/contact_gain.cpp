@@ -51,18 +51,15 @@ private:
         return gain;
     }
 
-    /// What the contact's spring gives in the step, where it gives [J]. What an impact overlaps is no spring.
+    /// What the contact's spring gives in the step, where it gives [J].
     double given_by_spring(const WholeContact& own, const ContactGeometry& geometry) const
     {
         if (own.terms.compliance == 0.0) return 0.0;
         const Contact& c = own.contact;
-        const int other = wall ? model_.walls[c.b].material : state_.material[c.b];
-        const bool bears =
-            geometry.touch.is_loaded() || model_.materials.between(state_.material[c.a], other).restitution == 0.0;
-        const double gap = geometry.gap + geometry.free_overlap;
+        const double gap = -geometry.compression;
         const double way = h_ * contact_velocity<wall, R>(own, state_.motion.data()).dot(c.normal);
         const auto held_at = [&](double at) { return spring_energy(std::min(0.0, at), own.terms.compliance, h_); };
-        return std::max(0.0, (bears ? held_at(gap) : 0.0) - held_at(gap + way));
+        return std::max(0.0, held_at(gap) - held_at(gap + way));
     }
 };
 

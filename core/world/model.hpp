@@ -23,7 +23,7 @@ struct SolverSettings {
     double tolerance = 1e-2;            ///< on the residual ε, see gauss_seidel.hpp
     double relaxation = 1.3;            ///< ω of the sweeps that are relaxed, METHOD (6); 1: none
     double restitution_threshold = 3.0; ///< impacts slower than this times gravity × step do not rebound
-    double push_out_speed = infinity;   ///< cap on the speed with which overlap is undone [m/s]
+    double push_out_speed = infinity;   ///< with which overlap is undone that no load has pressed [m/s]
     bool pressure_scaling = false;      ///< before the sweeps, see pressure_scaling/; with `projected` only
 };
 

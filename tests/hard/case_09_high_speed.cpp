@@ -98,7 +98,8 @@ TEST_CASE("9 a fast sphere meets a thin wall", "[hard][quick]")
 TEST_CASE("9 two fast spheres meet", "[hard][quick]")
 {
     // Each moves 10 d in the step, so they would pass through each other. With e = 1 they exchange their velocities,
-    // with e = 0 they stop, but for the 1/27 of `matched`; momentum is kept.
+    // with e = 0 they stop, but for what `matched` gives back by (4) of what the last of the gap leaves: 1 becomes
+    // -0.192, 0.041, 0.069 in three steps. Momentum is kept.
     HardCase hard("9 two fast spheres meet");
     for (const double e : {0.0, 1.0}) {
         double worst = 0.0, momentum = 0.0, least_gap = infinity;
@@ -119,7 +120,7 @@ TEST_CASE("9 two fast spheres meet", "[hard][quick]")
         }
         const std::string which = e > 0 ? ", e = 1" : ", e = 0";
         hard.above("least distance of centres" + which + " [d]", least_gap / d, 0.9);
-        hard.below("error of their velocities" + which + " [speed]", worst, e > 0 ? 1e-6 : 0.038);
+        hard.below("error of their velocities" + which + " [speed]", worst, e > 0 ? 1e-6 : 0.069);
         hard.below("momentum" + which + " [m x speed]", momentum, 1e-12);
     }
 }

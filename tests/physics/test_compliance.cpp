@@ -30,11 +30,13 @@ double stiffness_for(double omega_h)
     return sphere_mass() * omega_h * omega_h / (time_step * time_step);
 }
 
-/// A sphere on a floor of this stiffness without gravity, that reaches it at speed V with this gap left.
+/// A sphere on a floor of this stiffness without gravity, that reaches it at speed V with this gap left. What a load
+/// presses is given back at any speed, whatever that with which other overlap is undone.
 World soft_impact(double omega_h, double speed, double gap)
 {
     World world = sphere_on_plane(soft(stiffness_for(omega_h)), matched_settings(), time_step, Vec3(0, 0, -speed));
     world.model.gravity = Vec3::Zero();
+    world.model.solver.push_out_speed = 0.1 * automatic_push_out_speed();
     world.state.position[0].z() += gap;
     return world;
 }

@@ -56,7 +56,7 @@ struct Touches {
             law = {number(0, 1), lane % 3 ? number(0, 1) : 0.0, 0.0, lane % 2 ? 1e4 : infinity};
             CarriedContact& own = carried_of(lane);
             for (int d = 0; d < 3; ++d) own.impulse[d] = number(-1, 1);
-            own.free_overlap = static_cast<float>(number(0, 0.1 * radius));
+            own.compression = static_cast<float>(number(0, 0.1 * radius));
             own.touch.note_load(is_loaded(lane));
             if (is_jammed(lane)) own.touch.note_crushed();
         }
@@ -185,11 +185,12 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
         CHECK((all.marks.carries >> lane & 1U) == (along > 0.0));
 
         const double w = a.inverse_mass + b.inverse_mass;
-        const double f =
-            !impact && gap <= 0.0 && pair.restitution > 0.0 ? free_overlap<double>(gap, own.free_overlap, loaded) : 0.0;
-        CHECK(all.record.free_overlap[lane] == static_cast<float>(f));
-        const auto law = normal_law<double>({impact, !impact && gap > 0.0, gap + f, u_n, w, warm.dot(normal),
-                                                pair.restitution, pair.stiffness, Touches::is_jammed(lane)},
+        const bool jammed = Touches::is_jammed(lane);
+        const double pressed = jammed ? 0.0 : compression<double>(gap, own.compression, u_n, loaded, all.step.law);
+        CHECK(all.record.compression[lane] == static_cast<float>(pressed));
+        const bool rests = !impact && gap <= 0.0;
+        const auto law = normal_law<double>({impact, !impact && gap > 0.0, rests && !jammed ? -pressed : gap, u_n, w,
+                                                pair.restitution, pair.stiffness, jammed},
             all.step.law);
         CHECK(contact.target[lane] == Approx(law.target).epsilon(1e-12).margin(1e-15));
         CHECK(contact.compliance[lane] == law.compliance);
@@ -219,7 +220,7 @@ TEST_CASE("contacts hand on their impulses, impacts and touches out of reach not
         const bool holds = all.record.holds(static_cast<std::size_t>(lane));
         const bool keeps = holds && all.record.kind[lane] != ContactKind::impact;
         CHECK(own.impulse == (keeps ? impulse : Vec3::Zero().eval()));
-        CHECK(own.free_overlap == solved.record.free_overlap[lane]);
+        CHECK(own.compression == solved.record.compression[lane]);
         const bool is_deep = holds && -all.record.gap[lane] > deep;
         CHECK((deep_lanes >> lane & 1U) == is_deep);
         if (!holds) CHECK_FALSE(own.touch.is_loaded());
