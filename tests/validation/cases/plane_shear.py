@@ -42,7 +42,7 @@ DIAMETER, DENSITY, PRESSURE, HEIGHT = 0.01, 2500.0, 1000.0, 0.24  # as in scenes
 PRESSED = 0.5  # s, when the load is there
 SLOW, FAST = (0.01, 0.04), (0.1, 0.2)  # inertial numbers that are aimed at
 FRICTIONS = (0.0, 0.1, 0.3, 0.5, 1.0)
-STRAINS = {0.01: (0.8, 2.4), 0.04: (2, 6)}  # from when to when; of faster ones (5, 15)
+STRAINS = {0.01: (0.8, 2.4), 0.04: (2, 6)}  # from when to when; of faster ones (5, 12)
 STRENGTHS = {0.0: 0.105, 0.1: 0.268, 0.3: 0.357, 0.5: 0.382, 1.0: 0.405}
 FRACTIONS = {0.0: 0.636, 0.1: 0.613, 0.3: 0.596, 0.5: 0.587, 1.0: 0.581}
 BESIDE = 24  # degrees of the incline whose inertial number lies among these
@@ -63,7 +63,7 @@ def numbers_of(friction):
 
 def sheared(friction, number, name="", settings=None, seeds=SEEDS):
     shear_rate = number * math.sqrt(PRESSURE / DENSITY) / DIAMETER
-    begin, end = (PRESSED + strain / shear_rate for strain in STRAINS.get(number, (5, 15)))
+    begin, end = (PRESSED + strain / shear_rate for strain in STRAINS.get(number, (5, 12)))
     return over_seeds(f"shear_{friction:g}_{number:g}{name and '_' + name}", "plane_shear", {
         "contact.0.friction": friction, "wall.floor.motion.0.velocity": f"[{shear_rate * HEIGHT:.5f}, 0, 0]",
         "time.duration": end, "sensor.middle.from": begin, "sensor.shear.from": begin, **(settings or {})}, seeds)
