@@ -84,8 +84,8 @@ struct SolverTable {
             "but where pressures are scaled; above 1 they go farther than each contact asks for, by which fast flows "
             "converge in fewer sweeps");
         key("push_out_speed", self.push_out_speed, Allowed{.min = 0.0, .names = {"auto"}}, "m/s",
-            "largest speed with which overlap is undone; auto: 0.1 sqrt(diameter x gravity), without gravity 0.00072 "
-            "diameter / step");
+            "speed with which overlap is undone that no load has pressed; auto: 0.1 sqrt(diameter x gravity), without "
+            "gravity 0.00072 diameter / step");
         key("pressure_scaling", self.pressure_scaling, one_of({"auto"}), "",
             "carries changes of load through the whole bed at once; only with projected; auto: with projected, where "
             "the bed is forty grains deep or something rests on grains much lighter, but not along periodic axes");

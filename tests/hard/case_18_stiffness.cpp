@@ -43,7 +43,7 @@ double overlap_error(const World& world, double of_one)
 TEST_CASE("18 very soft and very hard contacts", "[hard]")
 {
     // Soft: k such that one sphere lies 10 % d deep in the floor at rest, and a column of five 50 %. The overlap is
-    // load/k whatever the step, and nothing is boosted by the cap on push-out. Hard: glass of that size has 1e6 N/m,
+    // load/k whatever the step, and nothing is boosted by the push-out. Hard: glass of that size has 1e6 N/m,
     // 1e12 must be as good as rigid. `matched` stops at what two sweeps can carry, so there it is so to the bit;
     // `projected` is rigid by itself and refuses a stiffness: that is the one to compare a rigid result with.
     HardCase hard("18 very soft and very hard contacts");
