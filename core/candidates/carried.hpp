@@ -68,7 +68,7 @@ inline constexpr double crushed_overlap = 0.125;
 /// What a contact hands on from one step to the next; zeros where nothing is.
 struct alignas(32) CarriedContact {
     Vec3 impulse = Vec3::Zero(); ///< λ [N s]
-    float compression = 0.0F;    ///< κ: what of its overlap a load has pressed [m]
+    float compression = 0.0F;    ///< κ: what of its overlap a load has pressed [m]; not read where it was not loaded
     TouchRecord touch;
     std::uint8_t unused[3] = {}; ///< kernels read the last eight bytes as one number
 
@@ -96,8 +96,9 @@ struct Carried {
     CarriedImpulses walls;          ///< by wall slot of the candidate list
     std::vector<Vec3> wall_normal;  ///< by wall slot: the normal by which the next step knows a wall contact again
     double impulse_step = infinity; ///< for how long the impulses have acted [s]; infinite before the first step
+    double step_before = 0.0;       ///< length of the step that brought the spheres where they are [s]
 
-    void persist(Archive& archive) { archive(walls, wall_normal, impulse_step); }
+    void persist(Archive& archive) { archive(walls, wall_normal, impulse_step, step_before); }
 };
 
 } // namespace talus

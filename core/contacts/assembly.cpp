@@ -203,9 +203,9 @@ void ContactSurvey::then(const ContactSurvey& next)
 }
 
 ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, const Model& model,
-    const StepLength& length, double h_before, const std::vector<PlacedWall>& walls)
+    const StepLength& length, const std::vector<PlacedWall>& walls)
 {
-    const StepConstants step = step_constants(model, length, h_before);
+    const StepConstants step = step_constants(model, length, network.carried.step_before);
     network.contacts.resize(network.list, model.physics, state.count());
     SphereAssembly spheres(network, state, model, step);
     const auto tiles = static_cast<std::int64_t>(network.list.tiles.count());

@@ -13,9 +13,8 @@ namespace talus
 /// Turns the candidates that touch, or will within this step and a half, into the contacts of this step's problem:
 /// normal, law (packs/law.hpp), effective masses, and the impulse carried over, put back into the new tangent plane
 /// and cone. Reads v⁽⁰⁾: gravity has not been added yet. Tiles in parallel, pistons after them.
-/// @param h_before length of the step that brought the spheres here [s]; @param walls as they stand now, with their
-/// velocity over the step
+/// @param walls as they stand now, with their velocity over the step
 ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, const Model& model, const StepLength& step,
-    double h_before, const std::vector<PlacedWall>& walls);
+    const std::vector<PlacedWall>& walls);
 
 } // namespace talus

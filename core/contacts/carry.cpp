@@ -108,6 +108,7 @@ ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, 
         const ContactGeometry own = contacts.geometry(k);
         const bool keeps = own.kind != ContactKind::impact;
         carried.contact[own.slot].impulse = keeps ? impulse : Vec3::Zero().eval();
+        carried.contact[own.slot].compression = own.compression;
         carried.contact[own.slot].touch = touch;
         if (contacts.has_rolling())
             carried.rolling_impulse[own.slot] = keeps ? contacts.rolling_impulse(k) : Vec3::Zero().eval();
@@ -150,6 +151,7 @@ ContactOutcome& ContactOutcome::operator+=(const ContactOutcome& other)
 
 ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model, double h)
 {
+    network.carried.step_before = h;
     const PressGauge gauge(state, model, h);
     StepContacts& contacts = network.contacts;
     const auto tiles = static_cast<std::int64_t>(contacts.spheres.size());

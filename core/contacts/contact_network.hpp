@@ -69,7 +69,7 @@ struct MotionBefore {
 ///   list      update_candidates: listed boxes,
 ///     |       pairs by tile; the place of a pair is its slot
 ///     v
-///   slots     λ, touch           -- assemble_contacts -->  contacts  n, g, law, λ⁰: by tile, those that are near
+///   slots     λ, κ, touch        -- assemble_contacts -->  contacts  n, g, law, λ⁰: by tile, those that are near
 ///     ^                                                        |     their `slot` says where λ comes from
 ///     |                                                        |     warm start, sweeps: λ
 ///     +------------------ carry_impulses ----------------------+

@@ -105,8 +105,6 @@ private:
         const std::uint32_t slot = slot_[lane];
         const double gap = touch_.gap[lane];
         note_overlap(gap);
-        CarriedContact& carried = carried_.contact[slot];
-        carried.compression = static_cast<float>(touch_.compression[lane]);
         const bool waits = touch_.waits[lane];
         if (!touch_.in_problem[lane] || (waits && one_by_one_)) return;
 
@@ -116,7 +114,8 @@ private:
                           : touch_.open[lane] ? ContactKind::open
                                               : ContactKind::resting;
         contacts_.copy(k, contact_, static_cast<std::size_t>(lane),
-            {gap, wall_level_[lane], slot, kind, waits, carried.touch, carried.compression});
+            {gap, wall_level_[lane], slot, kind, waits, carried_.contact[slot].touch,
+                static_cast<float>(touch_.compression[lane])});
         if (contacts_.has_moving_walls()) contacts_.set_wall(k, row_[lane]);
         if (contacts_.has_rolling()) {
             const Motion& m = state_.motion[sphere];

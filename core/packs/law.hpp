@@ -81,14 +81,15 @@ template <class N> [[gnu::always_inline]] inline N spring_energy(const N& gap, c
 /// The compression κ of a contact's spring: how much of its overlap a load has pressed [m]. What an impact leaves
 /// overlapping, or closes beside it, has stored nothing, and must not push as if it had. It becomes compression with
 /// the push-out speed p, so that a deep overlap does not become a shot.
-/// @param before κ of the step before; @param u_n with which the spheres moved in it
+/// @param before κ of the step before, not read where the contact was not loaded in it; @param u_n of v⁽⁰⁾, against
+/// the wall's velocity then
 template <class N>
 [[gnu::always_inline]] inline N compression(
     const N& gap, const N& before, const N& u_n, const Answer<N>& was_loaded, const LawOfStep& step)
 {
     const N depth = larger<N>(N{}, -gap);
-    const N pressed = was_loaded ? larger<N>(N{}, before - step.h_before * u_n) : N{};
-    return smaller<N>(depth, pressed + step.h * step.push_out_speed);
+    const N borne = was_loaded ? larger<N>(N{}, before - step.h_before * u_n) : N{};
+    return smaller<N>(depth, borne + step.h * step.push_out_speed);
 }
 
 /// What a sub-step takes of the feedback on overlap. The stiffness that sweeps can carry goes with 1/h², so with all of

@@ -145,7 +145,7 @@ template <class N>
 /// own in the next one: such a contact waits beside one. Spheres that touch without a load count as apart. In a split
 /// step nothing waits: walls must hold what is thrown at them. Left out at once are spheres that miss each other: the
 /// law of their gap along the normal of now would brake them.
-/// @param is_free no impact, and it bears nothing
+/// @param is_free no impact, has restitution, and was not loaded
 /// Returns what is left out at once.
 template <int width>
 [[gnu::always_inline]] inline Flags<width> leave_out(
@@ -183,13 +183,13 @@ template <int width>
     const Vector<width> warm = warm_impulse<width>(Vector<width>::load(touch.carried, first), normal, friction, impact);
     const N u_n_before = number(touch.u_n_before);
     const F jammed = load_flags<width>(touch.jammed + first);
-    const N pressed = jammed ? none : compression<N>(gap, number(touch.compression), u_n_before, loaded, step.law);
-    const auto law = normal_law<N>({impact, is_open, rests & ~jammed ? -pressed : gap, impact ? u_n : u_n_before, w,
+    const N kappa = jammed ? none : compression<N>(gap, number(touch.compression), u_n_before, loaded, step.law);
+    const auto law = normal_law<N>({impact, is_open, rests & ~jammed ? -kappa : gap, impact ? u_n : u_n_before, w,
                                        restitution, number(touch.stiffness), jammed, number(touch.u_n_turned)},
         step.law);
 
-    const F bears = (restitution == 0.0) | loaded; // what an impact overlaps is no spring
-    const F in_problem = within_reach & ~leave_out<width>(touch, first, closes, (!impact) & (!bears), step);
+    const F is_free = (!impact) & (restitution > 0.0) & (!loaded);
+    const F in_problem = within_reach & ~leave_out<width>(touch, first, closes, is_free, step);
     const auto put = [&](double* row, const N& numbers) __attribute__((always_inline))
     {
         store<width>(row + first, in_problem ? numbers : none);
@@ -203,8 +203,8 @@ template <int width>
     put(contact.normal_mass, 1.0 / (w + law.compliance));
     put(contact.tangent_mass, 1.0 / (w * (1.0 + step.inverse_inertia * arm_scale * arm_scale)));
     put(contact.inverse_mass_sum, w);
-    put(touch.stored_energy, rests ? stored_energy<N>(-pressed, law, step) : none);
-    store<width>(touch.compression + first, pressed);
+    put(touch.stored_energy, rests ? stored_energy<N>(-kappa, law, step) : none);
+    store<width>(touch.compression + first, kappa);
     store<width>(touch.in_problem + first, in_problem);
     store<width>(touch.impact + first, impact);
     store<width>(touch.open + first, is_open);

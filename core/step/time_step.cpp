@@ -157,8 +157,7 @@ PreparedStep prepare_step(
 
     // Which do, under which law, and with what impulse to begin with?
     if (observer) observer(Phase::assembly);
-    prepared.contacts =
-        assemble_contacts(network, state, model, step, step.h() / prepared.impulse_scale, prepared.walls);
+    prepared.contacts = assemble_contacts(network, state, model, step, prepared.walls);
     if (prepared.contacts.impacts > 0) prepared.flights = place_impacts(network, state, model, step.h());
     return prepared;
 }

@@ -73,7 +73,7 @@ TEST_CASE("9 a fast sphere meets a thin wall", "[hard][quick]")
     // It moves 10 d in a step of 1 ms, so where positions are looked at only once a step it goes through 95 of 100
     // walls of 1 mm, and the step is split into a hundred. The criterion: nowhere in its way does its centre come to
     // the other side, and with e = 1 it has its speed back to 1e-6. With e = 0 `projected` gives nothing back, and
-    // `matched` what its law does at any speed, up to 1/27 of what the last of the gap leaves.
+    // `matched` what its law does at any speed, up to 0.07 of what the last of the gap leaves.
     HardCase hard("9 a fast sphere meets a thin wall");
     const Mesh thin = block(Vec3(-plate, -plate, -thickness), Vec3(plate, plate, 0)), flat = triangle_plate();
     const Vec3 head_on(0, 0, -speed), aslant(0.6 * speed, 0, -0.8 * speed);

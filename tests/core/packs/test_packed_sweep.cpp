@@ -95,8 +95,7 @@ TEST_CASE("all instruction sets give the same bits, whatever a scene models", "[
     const bool walls_move = GENERATE(false, true);
     World world = crowd(law, spin, walls_move);
     world.update_candidates();
-    assemble_contacts(
-        world.network, world.state, world.model, {world.model.time_step}, world.model.time_step, world.placed_walls());
+    assemble_contacts(world.network, world.state, world.model, {world.model.time_step}, world.placed_walls());
     const Result plain = swept_by(plain_kernels, world);
     REQUIRE(plain.numbers.size() > 2000);
     for (const Kernels* kernels : usable) {

@@ -34,7 +34,7 @@ struct Touches {
     {
         Random random(seed);
         const auto number = [&](double least, double most) { return least + (most - least) * uniform(random); };
-        step.law = {.h = 1e-3, .threshold_speed = 0.03, .push_out_speed = 0.1};
+        step.law = {.h = 1e-3, .h_before = 2e-3, .threshold_speed = 0.03, .push_out_speed = 0.1};
         step.reach = 0.02 * radius;
         step.horizon = 1.5e-3;
         step.touching = 1e-9 * radius;
@@ -186,10 +186,10 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
 
         const double w = a.inverse_mass + b.inverse_mass;
         const bool jammed = Touches::is_jammed(lane);
-        const double pressed = jammed ? 0.0 : compression<double>(gap, own.compression, u_n, loaded, all.step.law);
-        CHECK(all.record.compression[lane] == static_cast<float>(pressed));
+        const double kappa = jammed ? 0.0 : compression<double>(gap, own.compression, u_n, loaded, all.step.law);
+        CHECK(all.record.compression[lane] == static_cast<float>(kappa));
         const bool rests = !impact && gap <= 0.0;
-        const auto law = normal_law<double>({impact, !impact && gap > 0.0, rests && !jammed ? -pressed : gap, u_n, w,
+        const auto law = normal_law<double>({impact, !impact && gap > 0.0, rests && !jammed ? -kappa : gap, u_n, w,
                                                 pair.restitution, pair.stiffness, jammed},
             all.step.law);
         CHECK(contact.target[lane] == Approx(law.target).epsilon(1e-12).margin(1e-15));

@@ -24,8 +24,7 @@ bool has_kind(const ContactNetwork& network, ContactKind kind)
 void begin(World& world)
 {
     world.update_candidates();
-    assemble_contacts(
-        world.network, world.state, world.model, {world.model.time_step}, world.model.time_step, world.placed_walls());
+    assemble_contacts(world.network, world.state, world.model, {world.model.time_step}, world.placed_walls());
     for (Motion& motion : world.state.motion) motion.velocity += world.model.time_step * world.model.gravity;
 }
 

@@ -213,4 +213,18 @@ TEST_CASE("a fast gas is the same bits after a restart, and with any number of t
     CHECK(same_bits(through.state.motion, resumed.state.motion));
 }
 
+TEST_CASE("a step that is taken back leaves no trace", "[sub_steps]")
+{
+    // What contacts have pressed, between spheres and at the wall, is that of the step that was made.
+    World world = stack(Stabilisation::matched);
+    world.state.motion[9].velocity.z() = -0.2;
+    world.step(20);
+    World tried = world;
+    for (const double length : {time_step, 0.1 * time_step, time_step})
+        REQUIRE_FALSE(advance_once({length}, 1e-12, tried.state, tried.network, tried.model, {}));
+    world.step(20);
+    tried.step(20);
+    for (int k = 0; k < 10; ++k) CHECK(tried.position(k).z() == within(1e-13, world.position(k).z()));
+}
+
 } // namespace talus::test
