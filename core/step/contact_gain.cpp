@@ -56,10 +56,10 @@ private:
     {
         if (own.terms.compliance == 0.0) return 0.0;
         const Contact& c = own.contact;
-        const double gap = -geometry.compression;
         const double way = h_ * contact_velocity<wall, R>(own, state_.motion.data()).dot(c.normal);
-        const auto held_at = [&](double at) { return spring_energy(std::min(0.0, at), own.terms.compliance, h_); };
-        return std::max(0.0, held_at(gap) - held_at(gap + way));
+        const double kappa = geometry.compression;
+        const auto held_at = [&](double at) { return spring_energy(at, own.terms.compliance, h_); };
+        return std::max(0.0, held_at(kappa) - held_at(std::max(0.0, kappa - way)));
     }
 };
 

@@ -45,7 +45,7 @@ TEST_CASE("13 coincident centres", "[hard][quick]")
     // step leaves 5/9 of the overlap, 20 of them 8e-6. `matched` must not: undoing a whole diameter in 20 steps would
     // be a shot of d/(20 h) = 2 m/s, 60 times the push-out speed; it parts them with that speed, in d over it.
     HardCase hard("13 coincident centres");
-    const double cap = automatic_push_out_speed();
+    const double p = automatic_push_out_speed();
     for (const double apart : {0.0, 1e-15 * d}) {
         const std::string where = apart == 0.0 ? "0 apart" : "1e-15 d apart";
         World moved = pair_apart(apart, Stabilisation::projected);
@@ -59,9 +59,9 @@ TEST_CASE("13 coincident centres", "[hard][quick]")
         const int steps = advance_until(
             pushed, [](const World& w) { return distance(w) >= d; }, 10000);
         hard.below(where + ", matched: time until they are apart [d / push-out speed]",
-            steps * pushed.model.time_step * cap / d, 1.05);
+            steps * pushed.model.time_step * p / d, 1.05);
         hard.between(where + ", matched: speed of parting [push-out speed]",
-            (pushed.velocity(0) - pushed.velocity(1)).norm() / cap, 1.0, 1.2);
+            (pushed.velocity(0) - pushed.velocity(1)).norm() / p, 1.0, 1.2);
         hard.below(where + ", matched: momentum [m x speed]",
             pushed.momentum().norm() / (pushed.mass() * pushed.velocity(0).norm()), 1e-14);
 

@@ -30,7 +30,7 @@ TEST_CASE("what a press has crushed comes out no faster than overlap is undone",
 {
     // A lid comes down on a sphere by 0.6 d, 0.3 d into each of its sides, and is taken away. Were its contacts
     // elastic, it would jump up with 0.4 of this in a step, 4.7 m/s. A contact that has yielded ends with u_n ≤ p, and
-    // shallower than 1 % d, where it is elastic again, it has the impulse of that only: 1.2 p, as in test_push_out.
+    // shallower than 1 % d, where it is elastic again, nothing has pressed it: its overlap is undone with p.
     const auto law = GENERATE(Stabilisation::matched, Stabilisation::projected);
     World world = production_world({.friction = 0.5}, law);
     constexpr double speed = 0.1, way = 0.6 * d;

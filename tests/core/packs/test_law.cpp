@@ -52,7 +52,7 @@ TEST_CASE("each kind of contact gets its law", "[stabilisation]")
 
     const auto resting = normal_law(event(ContactKind::resting, -1e-5, -0.09), {h});
     CHECK(resting.compliance == Approx(0.2 / 2 * w));                   // σ W, σ = 0.2 / N_min
-    CHECK(resting.target == Approx(4.0 / 9.0 * 1e-5 / h - 0.09 / 9.0)); // −(4/h) Υ g + Υ u_n
+    CHECK(resting.target == Approx(4.0 / 9.0 * 1e-5 / h - 0.09 / 9.0)); // 4Υ κ/h + Υ u_n
 
     const auto rigid = normal_law(event(ContactKind::resting, -1e-5, -0.09), {.h = h, .rigid = true});
     CHECK(rigid.target == 0.0);

@@ -49,9 +49,10 @@ OURS_SMOOTH = over_seeds("penetration_smooth", "penetration", SMOOTH)
 THEIRS_SMOOTH = over_seeds("penetration_smooth_liggghts", "penetration", SMOOTH, seeds=(1,), program="liggghts",
                            modulus="5e7")
 ALONE = {"Talus": over_seeds("ball_on_bead", "ball_on_bead", seeds=(1,)),
-         **{f"Talus, e = {e:g}": over_seeds(f"ball_on_bead_{e:g}", "ball_on_bead", {"contact.0.restitution": e}, seeds=(1,))
-            for e in (0, 0.98)},
-         "Talus, an eighth of the step": over_seeds("ball_on_bead_eighth", "ball_on_bead", {"time.step": 1.47e-5}, seeds=(1,)),
+         **{f"Talus, e = {e:g}": over_seeds(f"ball_on_bead_{e:g}", "ball_on_bead", {"contact.0.restitution": e},
+                                            seeds=(1,)) for e in (0, 0.98)},
+         "Talus, an eighth of the step": over_seeds("ball_on_bead_eighth", "ball_on_bead", {"time.step": 1.47e-5},
+                                                    seeds=(1,)),
          **{f"LIGGGHTS, {modulus} Pa": over_seeds(f"ball_on_bead_liggghts_{modulus}", "ball_on_bead", seeds=(1,),
                                                   program="liggghts", modulus=modulus) for modulus in ("1e9", "5e7")}}
 RUNS = [*OURS, *THEIRS, *QUARTER, *OURS_SMOOTH, *THEIRS_SMOOTH,
