@@ -38,7 +38,7 @@ template <class N> using Answer = decltype(N{} < N{});
 template <class N> struct NormalLaw {
     N target;         ///< q_n [m/s]
     N compliance;     ///< Σ_n [1/kg]
-    N feedback_share; ///< of the feedback on overlap, and so of the stiffness 4Υ/(Σ_n h²), that it takes
+    N feedback_share; ///< of the feedback on κ, and so of the stiffness 4Υ/(Σ_n h²), that it takes
 };
 
 /// What the law of a contact depends on.
@@ -72,10 +72,10 @@ template <class N>
     return larger<N>(4.0 * upsilon / (stiffness * h * h), sigma_per_sweep / min_sweeps * inverse_mass_sum);
 }
 
-/// What a spring of the stiffness that a compliance stands for, k = 4 Υ / (Σ_n h²), holds at this gap [J].
-template <class N> [[gnu::always_inline]] inline N spring_energy(const N& gap, const N& compliance, double h)
+/// What a spring of the stiffness that a compliance stands for, k = 4 Υ / (Σ_n h²), holds at the compression κ [J].
+template <class N> [[gnu::always_inline]] inline N spring_energy(const N& kappa, const N& compliance, double h)
 {
-    return 2.0 * upsilon / (compliance * h * h) * gap * gap;
+    return 2.0 * upsilon / (compliance * h * h) * kappa * kappa;
 }
 
 /// The compression κ of a contact's spring: how much of its overlap a load has pressed [m]. What an impact leaves
@@ -92,9 +92,9 @@ template <class N>
     return smaller<N>(depth, borne + step.h * step.push_out_speed);
 }
 
-/// What a sub-step takes of the feedback on overlap. The stiffness that sweeps can carry goes with 1/h², so with all of
-/// it a bed at rest would rise when its step is split. Shallow overlaps keep the stiffness of the whole step, and those
-/// five times as deep have that of the sub-step.
+/// What a sub-step takes of the feedback on κ. The stiffness that sweeps can carry goes with 1/h², so with all of it a
+/// bed at rest would rise when its step is split. Contacts that are little compressed keep the stiffness of the whole
+/// step, and those with five times that κ have that of the sub-step.
 template <class N> [[gnu::always_inline]] inline N feedback_share(const ContactEvent<N>& event, const LawOfStep& step)
 {
     const N one = N{} + 1.0;

@@ -78,18 +78,18 @@ template <int width> struct CarriedRecords {
         Flags<width> both;
         __builtin_memcpy(&both, &numbers[3], sizeof both);
         const auto low = __builtin_convertvector(both, typename Register<width>::Words);
-        typename Register<width>::Floats overlap;
-        __builtin_memcpy(&overlap, &low, sizeof overlap);
-        return {{numbers[0], numbers[1], numbers[2]}, __builtin_convertvector(overlap, Numbers<width>),
+        typename Register<width>::Floats kappa;
+        __builtin_memcpy(&kappa, &low, sizeof kappa);
+        return {{numbers[0], numbers[1], numbers[2]}, __builtin_convertvector(kappa, Numbers<width>),
             (both >> touch_bits) & 255};
     }
 
     /// Puts them where they belong, those that have a place.
     [[gnu::always_inline]] void scatter(double* const* records) const
     {
-        const auto overlap = __builtin_convertvector(compression, typename Register<width>::Floats);
+        const auto kappa = __builtin_convertvector(compression, typename Register<width>::Floats);
         typename Register<width>::Words low;
-        __builtin_memcpy(&low, &overlap, sizeof low);
+        __builtin_memcpy(&low, &kappa, sizeof low);
         const Flags<width> both = __builtin_convertvector(low, Flags<width>) | (touch << touch_bits);
         Numbers<width> numbers[4] = {impulse.x, impulse.y, impulse.z};
         __builtin_memcpy(&numbers[3], &both, sizeof both);

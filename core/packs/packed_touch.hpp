@@ -132,12 +132,12 @@ template <int width>
 
 /// With k = 4 Υ / (Σ_n h²), the stiffness that the compliance stands for [J].
 template <class N>
-[[gnu::always_inline]] inline N stored_energy(const N& gap, const NormalLaw<N>& law, const StepConstants& step)
+[[gnu::always_inline]] inline N stored_energy(const N& kappa, const NormalLaw<N>& law, const StepConstants& step)
 {
     if (step.law.rigid) return N{};
-    const auto is_spring = (gap < 0.0) & (law.compliance > 0.0);
+    const auto is_spring = (kappa > 0.0) & (law.compliance > 0.0);
     const N compliance = is_spring ? law.compliance : N{} + 1.0;
-    const N energy = spring_energy<N>(gap, compliance, step.law.h) * law.feedback_share;
+    const N energy = spring_energy<N>(kappa, compliance, step.law.h) * law.feedback_share;
     return is_spring ? energy : N{};
 }
 
@@ -203,7 +203,7 @@ template <int width>
     put(contact.normal_mass, 1.0 / (w + law.compliance));
     put(contact.tangent_mass, 1.0 / (w * (1.0 + step.inverse_inertia * arm_scale * arm_scale)));
     put(contact.inverse_mass_sum, w);
-    put(touch.stored_energy, rests ? stored_energy<N>(-kappa, law, step) : none);
+    put(touch.stored_energy, rests ? stored_energy<N>(kappa, law, step) : none);
     store<width>(touch.compression + first, kappa);
     store<width>(touch.in_problem + first, in_problem);
     store<width>(touch.impact + first, impact);
@@ -313,11 +313,11 @@ double hand_on(const ContactPack& contact, RecordPack& record, double deep, unsi
         narrow<width>(record.touch + first, touch);
         deep_lanes |= bits<width>(is_deep) << first;
 
-        typename Register<width>::Floats overlap;
-        __builtin_memcpy(&overlap, record.compression + first, sizeof overlap);
+        typename Register<width>::Floats kappa;
+        __builtin_memcpy(&kappa, record.compression + first, sizeof kappa);
         const CarriedRecords<width> carries{
             {keeps ? impulse.x : none, keeps ? impulse.y : none, keeps ? impulse.z : none},
-            __builtin_convertvector(overlap, Numbers<width>), touch};
+            __builtin_convertvector(kappa, Numbers<width>), touch};
         double* records[width];
         for (int lane = 0; lane < width; ++lane)
             records[lane] =

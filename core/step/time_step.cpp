@@ -151,7 +151,7 @@ PreparedStep prepare_step(
     if (observer) observer(Phase::search);
     prepared.impulse_scale = scale_impulses(state, network, step.h());
     renumber_along_curve(state, network, model);
-    prepared.walls = place_walls(model, state, step.h());
+    prepared.walls = place_walls(model, state, step.h(), network.carried.step_before);
     prepared.search.searched = update_candidates(network.list, network.carried, state, model, step.h(), prepared.walls);
     prepared.search.candidates = network.list.size();
 

@@ -32,7 +32,7 @@ struct SolverSettings {
 struct StepLength {
     double whole = 0.0;           ///< the model's time step [s]
     int parts = 1;                ///< sub-steps
-    double shallow_overlap = 0.0; ///< where it is split: up to this, contacts are no stiffer than in the whole step [m]
+    double shallow_overlap = 0.0; ///< where it is split: up to this κ, contacts are as stiff as in the whole step [m]
 
     double h() const { return whole / parts; } ///< of this step or sub-step [s]
     bool is_split() const { return parts > 1; }

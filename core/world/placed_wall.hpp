@@ -19,7 +19,9 @@ class PlacedWall
 {
 public:
     /// @param step h [s] over which `velocity` is the mean; 0: only the place is wanted
-    PlacedWall(const Wall& wall, const Periodicity& periodicity, double time, double step = 0.0);
+    /// @param step_before the same for `velocity_before`, which is `velocity` where there was none, 0
+    PlacedWall(
+        const Wall& wall, const Periodicity& periodicity, double time, double step = 0.0, double step_before = 0.0);
 
     /// The wall of a piston, which is where forces have brought it.
     /// @param gain what the step would add to its velocity if nothing touched it [m/s]
@@ -72,7 +74,9 @@ private:
 
 /// All walls as they stand.
 /// @param step h [s] over which velocities are means; 0: only the places are wanted
-std::vector<PlacedWall> place_walls(const Model& model, const State& state, double step = 0.0);
+/// @param step_before the length of the step before [s]; 0: there was none
+std::vector<PlacedWall> place_walls(
+    const Model& model, const State& state, double step = 0.0, double step_before = 0.0);
 
 /// All walls at the beginning of a run: pistons where the scene puts them.
 std::vector<PlacedWall> place_walls_at_start(const Model& model);

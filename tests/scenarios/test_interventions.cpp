@@ -21,7 +21,8 @@ Simulation simulation_with(const WallMotion& motion)
 
 PlacedWall wall_of(const Simulation& simulation)
 {
-    return place_walls(simulation.model, simulation.state, simulation.model.time_step)[0];
+    return place_walls(
+        simulation.model, simulation.state, simulation.model.time_step, simulation.network.carried.step_before)[0];
 }
 
 const Vec3 corner(0.01, 0.02, 0.03); // of the wall, somewhere

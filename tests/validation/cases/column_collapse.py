@@ -20,8 +20,8 @@ little more room than they take: from a looser one a = 4 and 8 fell far, still h
 they were released, and a = 8 burst in its middle; a first set of their runs was that. The front is where the deposit is
 half a diameter thick (beside it, for information, where a strip two diameters wide has no bead), the heights are means
 of the tops of the beads, the time is that when 98 % of the run-out is made (and that from which on the front is slower
-than 0.02 √(g h), for information). From the release runs last 6 √(h/g), of a = 4 only 4.2, and of a = 8, which stop
-sooner, 3.4: from there to 4.2 fronts swung by 1.3 % at most, and rows change by less than 1 % (a first set of runs);
+than 0.02 √(g h), for information). From the release runs last 6 √(h/g), of a = 4 and of round ones with 32 d only
+4.2, and of a = 8, which stop sooner, 3.4: from there to 4.2 fronts swung by 1.3 % at most, and rows change by less than 1 % (a first set of runs);
 with half the step they last 5, from where fronts stood to 0.1 % (an earlier set). The run-out depends on l/d, too
 (Warnett et al. 2014, Granular Matter 16, 115), hence the prefactors only ± 20 %. The automatic step follows from what
 might fall from the top of the column, 0.1 d in a step.
@@ -65,7 +65,7 @@ made. How the end is defined changes that by a fifth: by the time from which on 
 defined it could not be read again."""
 LENGTH, GRAVITY, DENSITY = 0.08, 9.81, 2500.0  # as in the scenes
 RELEASE = 0.3  # s
-LASTING = {4: 4.2, 8: 3.4}  # from there on, by the aspect ratio; of lower ones 6 [√(h/g)]
+LASTING = {4: 4.2, 8: 3.4}  # from there on, by the aspect ratio, of high ones [√(h/g)]
 THICKNESS, FRACTION = 0.5, 0.58  # of the front [d]; of solid, to tell the thickness
 NONE = 0.05  # thickness where there is less than a bead in two diameters of a slot [d]
 STILL = 0.02  # √(g h), the speed below which a front stands still
@@ -79,6 +79,7 @@ class Shape(NamedTuple):
     count: int  # of the beads, for an aspect ratio of 1
     aspects: tuple[float, ...]
     settings: dict[str, object] = {}  # where beads are not those of the scene
+    lasting: float = 6  # low ones, from the release on [√(h/g)]
 
 
 def of_beads(diameter, **settings):
@@ -92,7 +93,7 @@ ROUND = Shape("round", "quarter_collapse", 0.005, 3550, (0.5, 1, 2, 4, 8))
 COARSE_SLOT = Shape("coarse_slot", "slot_collapse", 0.005, 1240, (0.5, 1, 2), of_beads(0.005, **{
     "world.max": "[inf, 0.022, inf]", "wall.bed.min": "[-0.005, 0, -0.0025]", "wall.bed.max": "[1.2, 0.022, -0.0025]"}))
 FINE_ROUND = Shape("fine_round", "quarter_collapse", 0.0025, 28400, (0.5, 1), of_beads(0.0025, **{
-    "wall.bed.min": "[-0.005, -0.005, -0.00125]", "wall.bed.max": "[0.4, 0.4, -0.00125]"}))
+    "wall.bed.min": "[-0.005, -0.005, -0.00125]", "wall.bed.max": "[0.4, 0.4, -0.00125]"}), lasting=4.2)
 
 
 class Collapse(NamedTuple):
@@ -121,8 +122,8 @@ def collapse(shape, aspect, name="", **settings):
                 ("max", f"[{LENGTH}, {depth(shape):g}, {0.0825 * aspect + 0.02:g}]"))
     return over_seeds(f"collapse_{shape.name}_{aspect:g}{name}", shape.scene, {
         "fill.0.count": round(shape.count * aspect), f"fill.0.region.{key}": top,
-        "time.duration": RELEASE + LASTING.get(aspect, 6) * math.sqrt(aspect * LENGTH / GRAVITY), **shape.settings,
-        **settings})
+        "time.duration": RELEASE + LASTING.get(aspect, shape.lasting) * math.sqrt(aspect * LENGTH / GRAVITY),
+        **shape.settings, **settings})
 
 
 COLUMNS = {shape.name: [collapse(shape, aspect) for aspect in shape.aspects]

@@ -51,7 +51,7 @@ def hopper(angle, outlet=OUTLET, name="", settings=None, **others):
     top = height(angle, outlet)
     return over_seeds(f"hopper_{angle}{name}", "conical_hopper", {
         "wall.cone.height": top, "wall.tube.base": f"[0, 0, {top}]", "fill.0.region.base": f"[0, 0, {top + 0.001}]",
-        **(settings or {})}, **others)
+        "time.duration": WATCHED[1] + 0.005, **(settings or {})}, **others)
 
 
 NARROW = hopper(30, 0.03, "_narrow", {"wall.cone.base_radius": 0.03, "wall.gate.radius": 1.2 * 0.03})
