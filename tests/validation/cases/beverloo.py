@@ -30,7 +30,7 @@ DIAMETER, FRACTION, GRAVITY, K = 0.01, 0.59, 9.81, 1.4
 SIZES = (6, 8, 10, 14, 20)  # of the outlet, in bead diameters
 TUBES = {6: 0.10, 8: 0.10, 10: 0.125, 14: 0.175, 20: 0.25}  # radius, m
 BEADS = {6: 8000, 8: 8000, 10: 14000, 14: 30000, 20: 80000}
-UNTIL = {6: 1.6, 8: 1.3, 10: 1.15, 14: 1.05, 20: 0.9}  # s
+UNTIL = {6: 1.6, 8: 1.45, 10: 1.15, 14: 1.05, 20: 0.9}  # s
 
 
 def silo(size, name="", **settings):

@@ -20,8 +20,8 @@ little more room than they take: from a looser one a = 4 and 8 fell far, still h
 they were released, and a = 8 burst in its middle; a first set of their runs was that. The front is where the deposit is
 half a diameter thick (beside it, for information, where a strip two diameters wide has no bead), the heights are means
 of the tops of the beads, the time is that when 98 % of the run-out is made (and that from which on the front is slower
-than 0.02 √(g h), for information). From the release runs last 6 √(h/g), of a = 4 and of round ones with 32 d only
-4.2, and of a = 8, which stop sooner, 3.4: from there to 4.2 fronts swung by 1.3 % at most, and rows change by less than 1 % (a first set of runs);
+than 0.02 √(g h), for information). From the release runs last 6 √(h/g), of a = 4 only 4.2, and of a = 8, which stop
+sooner, 3.4: from there to 4.2 fronts swung by 1.3 % at most, and rows change by less than 1 % (a first set of runs);
 with half the step they last 5, from where fronts stood to 0.1 % (an earlier set). The run-out depends on l/d, too
 (Warnett et al. 2014, Granular Matter 16, 115), hence the prefactors only ± 20 %. The automatic step follows from what
 might fall from the top of the column, 0.1 d in a step.
@@ -48,9 +48,9 @@ FINDINGS = """The slots of the experiments had side walls, these have none. Run-
 the experiments and those of a continuum without such walls, which are in proportion to a up to a = 7; so does their
 exponent, 0.83. With twice as many beads across, low columns run out further: in the slot nearer to the glass beads of
 Lajeunesse et al., round ones nearer to Lube's law. The exponent of low ones in the slot stays too large; taken as far
-as there are beads it is perhaps a little smaller, 1.15, still outside. From a = 0.5 to 1 it falls with the size of the
-beads, 1.28, 1.22 and 1.16 with l = 16, 32 and 64 d (by hand, from these runs and one of each a for 64 d, settings as of
-collapse() for d = 1.25 mm); from 1 to 2 it is 1.14 with 32 d. Round columns from a = 2 on were run with l = 16 d only:
+as there are beads it is a little smaller, 1.11, still outside. From a = 0.5 to 1 it falls with the size of the beads,
+1.29, 1.24 and 1.16 with l = 16, 32 and 64 d (by hand, from these runs and one of each a for 64 d, settings as of
+collapse() for d = 1.25 mm); from 1 to 2 it is 1.16 with 32 d. Round columns from a = 2 on were run with l = 16 d only:
 a = 2 falls short of the law, a = 8 goes beyond it; with 32 d they take up to a quarter of a million beads. LAMMPS has
 the same of the same columns (decks of `talus export`, 5e6 Pa, one run of each, by hand): in the slot run-outs of 0.71,
 1.65, 3.70 and 6.98 at a = 0.48, 0.95, 1.91 and 3.75, an exponent of 1.20 up to a = 2, and 2.9 a^(2/3) at the last;
@@ -61,11 +61,11 @@ round ones between a = 2 and 3, with l = 12 d, that is too large, too, 0.85 (run
 that roll freely leave a shallow cone: with rolling friction 0.2 the height at a = 2 (one run) is 0.80, within 20 % of
 the law; higher columns were not run with it. Round ones stop sooner than Lube's by the time when 98 % of the way is
 made. How the end is defined changes that by a fifth: by the time from which on the front is slower than a fiftieth of
-√(g h) round ones are within the tolerance, and those in the slot, which are by 98 %, just beyond theirs. How Lube
-defined it could not be read again."""
+√(g h) round ones are within the tolerance, and so, just, are those in the slot, as by 98 %. How Lube defined it could
+not be read again."""
 LENGTH, GRAVITY, DENSITY = 0.08, 9.81, 2500.0  # as in the scenes
 RELEASE = 0.3  # s
-LASTING = {4: 4.2, 8: 3.4}  # from there on, by the aspect ratio, of high ones [√(h/g)]
+LASTING = {4: 4.2, 8: 3.4}  # from there on, by the aspect ratio; of lower ones 6 [√(h/g)]
 THICKNESS, FRACTION = 0.5, 0.58  # of the front [d]; of solid, to tell the thickness
 NONE = 0.05  # thickness where there is less than a bead in two diameters of a slot [d]
 STILL = 0.02  # √(g h), the speed below which a front stands still
@@ -79,7 +79,6 @@ class Shape(NamedTuple):
     count: int  # of the beads, for an aspect ratio of 1
     aspects: tuple[float, ...]
     settings: dict[str, object] = {}  # where beads are not those of the scene
-    lasting: float = 6  # low ones, from the release on [√(h/g)]
 
 
 def of_beads(diameter, **settings):
@@ -93,7 +92,7 @@ ROUND = Shape("round", "quarter_collapse", 0.005, 3550, (0.5, 1, 2, 4, 8))
 COARSE_SLOT = Shape("coarse_slot", "slot_collapse", 0.005, 1240, (0.5, 1, 2), of_beads(0.005, **{
     "world.max": "[inf, 0.022, inf]", "wall.bed.min": "[-0.005, 0, -0.0025]", "wall.bed.max": "[1.2, 0.022, -0.0025]"}))
 FINE_ROUND = Shape("fine_round", "quarter_collapse", 0.0025, 28400, (0.5, 1), of_beads(0.0025, **{
-    "wall.bed.min": "[-0.005, -0.005, -0.00125]", "wall.bed.max": "[0.4, 0.4, -0.00125]"}), lasting=4.2)
+    "wall.bed.min": "[-0.005, -0.005, -0.00125]", "wall.bed.max": "[0.4, 0.4, -0.00125]"}))
 
 
 class Collapse(NamedTuple):
@@ -122,8 +121,8 @@ def collapse(shape, aspect, name="", **settings):
                 ("max", f"[{LENGTH}, {depth(shape):g}, {0.0825 * aspect + 0.02:g}]"))
     return over_seeds(f"collapse_{shape.name}_{aspect:g}{name}", shape.scene, {
         "fill.0.count": round(shape.count * aspect), f"fill.0.region.{key}": top,
-        "time.duration": RELEASE + LASTING.get(aspect, shape.lasting) * math.sqrt(aspect * LENGTH / GRAVITY),
-        **shape.settings, **settings})
+        "time.duration": RELEASE + LASTING.get(aspect, 6) * math.sqrt(aspect * LENGTH / GRAVITY), **shape.settings,
+        **settings})
 
 
 COLUMNS = {shape.name: [collapse(shape, aspect) for aspect in shape.aspects]

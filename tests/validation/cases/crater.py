@@ -31,7 +31,7 @@ TITLE = "impact crater"
 FINDINGS = """What the formula misses is likely the size of the grains: on beads half as wide, where balls are 10 and 16
 of them wide, each comes to lie deeper, the shallow ones, which are light or small, by more in proportion, and depths
 are those of the formula then. The powers of density and diameter seem to fall towards it, by single runs; that of the
-diameter, 0.94 there, would still be too large. In the bed of 0.611 that a first set of runs had, depths were a fifth
+diameter, 0.93 there, would still be too large. In the bed of 0.611 that a first set of runs had, depths were a fifth
 less. Carvalho, Lima & Franklin 2023 (Phys. Rev. E 107, 044901) trace the different scaling laws of the literature to
 the packing."""
 GRAVITY, BULK_DENSITY = 9.81, 1500.0  # of the bed
