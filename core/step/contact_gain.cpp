@@ -17,7 +17,7 @@ namespace
 template <bool wall, class R> class Gains
 {
 public:
-    Gains(const State& state, const Model& model, double h) : state_(state), model_(model), h_(h) {}
+    Gains(const State& state, double h) : state_(state), h_(h) {}
 
     double of(const TileContacts& contacts) const
     {
@@ -31,7 +31,6 @@ public:
 
 private:
     const State& state_;
-    const Model& model_;
     double h_;
 
     /// By how much the contact's impulses raise the bodies' kinetic energy, but for what its wall put in [J].
@@ -72,8 +71,8 @@ double contact_gain(const ContactNetwork& network, const State& state, const Mod
     std::vector<double> of_tile(contacts.spheres.size());
     with_rows(model.physics, [&](auto rows) {
         using R = decltype(rows);
-        const Gains<false, R> spheres(state, model, h);
-        const Gains<true, R> walls(state, model, h);
+        const Gains<false, R> spheres(state, h);
+        const Gains<true, R> walls(state, h);
 #pragma omp parallel for schedule(dynamic) if (tiles > 16)
         for (std::int64_t t = 0; t < tiles; ++t) {
             const auto tile = static_cast<std::size_t>(t);
