@@ -87,8 +87,8 @@ struct SolverTable {
             "speed with which overlap is undone that no load has pressed; auto: 0.1 sqrt(diameter x gravity), without "
             "gravity 0.00072 diameter / step");
         key("pressure_scaling", self.pressure_scaling, one_of({"auto"}), "",
-            "carries changes of load through the whole bed at once; only with projected; auto: with projected, where "
-            "the bed is forty grains deep or something rests on grains much lighter, but not along periodic axes");
+            "carries changes of load through the whole bed at once; only with projected, and not with periodic axes; "
+            "auto: with projected, where the bed is forty grains deep or something rests on grains much lighter");
         key("on_no_solution", self.on_no_solution, one_of({"stop", "go_on"}), "",
             "when walls press spheres together so that projected, which is rigid, has no solution; go_on: their "
             "contacts yield, and the run tells of them");

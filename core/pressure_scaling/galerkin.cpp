@@ -67,13 +67,13 @@ struct Footprint {
     }
 };
 
-Footprint footprint_of(std::span<const std::uint32_t> entries, const std::vector<Load>& loads, const HatGrid& grid)
+Footprint footprint_of(std::span<const std::uint32_t> entries, const std::vector<Load>& loads)
 {
     Footprint footprint{loads[entries[0] / 2].place.cell};
     for (int d = 0; d < 3; ++d) {
         std::int32_t low = 0, high = 0;
         for (const auto entry : entries) {
-            const auto way = grid.cells_between(d, footprint.cell[d], loads[entry / 2].place.cell[d]);
+            const auto way = loads[entry / 2].place.cell[d] - footprint.cell[d];
             low = std::min(low, way);
             high = std::max(high, way);
         }
@@ -105,7 +105,7 @@ Groups group_spheres(const LoadsOfSpheres& of, const std::vector<Load>& loads, c
         const auto k = static_cast<std::size_t>(i);
         const auto entries = of.entries_of(k);
         if (entries.empty()) continue;
-        const Footprint footprint = footprint_of(entries, loads, grid);
+        const Footprint footprint = footprint_of(entries, loads);
         key[k] = grid.number(footprint.cell) * Footprint::shapes + static_cast<std::size_t>(footprint.shape());
     }
 
@@ -140,8 +140,8 @@ using Forces = std::array<std::array<double, span_nodes>, 6>;
 class GroupSum
 {
 public:
-    GroupSum(const Group& group, const LoadsOfSpheres& of, const std::vector<Load>& loads, const HatGrid& grid)
-        : footprint_(group.footprint), nodes_(group.footprint.node_count()), of_(of), loads_(loads), grid_(grid)
+    GroupSum(const Group& group, const LoadsOfSpheres& of, const std::vector<Load>& loads)
+        : footprint_(group.footprint), nodes_(group.footprint.node_count()), of_(of), loads_(loads)
     {
         sums_.curvature.assign(static_cast<std::size_t>(nodes_ * (nodes_ + 1) / 2), 0.0);
     }
@@ -168,7 +168,6 @@ private:
     int nodes_;
     const LoadsOfSpheres& of_;
     const std::vector<Load>& loads_;
-    const HatGrid& grid_;
     GroupSums sums_;
 
     void add_load(Forces& forces, const Load& load, bool is_b)
@@ -176,7 +175,7 @@ private:
         const Vec3 push = is_b ? -load.impulse : load.impulse;
         const Vec3 turn = std::sqrt(inverse_inertia_factor) * (is_b ? load.turn_b : load.turn_a);
         std::array<int, 3> begin;
-        for (int d = 0; d < 3; ++d) begin[d] = grid_.cells_between(d, footprint_.cell[d], load.place.cell[d]);
+        for (int d = 0; d < 3; ++d) begin[d] = load.place.cell[d] - footprint_.cell[d];
         for (int corner = 0; corner < 8; ++corner) {
             const auto at = corner_of_cell(corner);
             const double hat = load.place.hat(at);
@@ -291,7 +290,7 @@ CoarseEnergy coarse_energy(const Loads& loads, const HatGrid& grid, const State&
 #pragma omp parallel for schedule(dynamic) if (group_count > 16)
     for (std::int64_t k = 0; k < group_count; ++k) {
         const auto g = static_cast<std::size_t>(k);
-        GroupSum sum(groups.list[g], of, loads.list, grid);
+        GroupSum sum(groups.list[g], of, loads.list);
         for (auto i = groups.list[g].begin; i < groups.list[g].end; ++i)
             sum.add(groups.sphere[i], state.motion[groups.sphere[i]].inverse_mass);
         sums[g] = sum.result();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/base/periodicity.hpp"
 #include "core/base/vector.hpp"
 
 #include <array>
@@ -36,20 +35,14 @@ struct HatPlace {
 
 /// A cubic lattice of nodes in a box, each with its hat function φ: 1 at the node, 0 at all others, trilinear between.
 /// The hats add up to 1 everywhere.
-///
-/// Along a periodic axis the world is divided into at least three equal cells at least as long as the spacing; where it
-/// is too short for that, the hats do not vary along it.
 class HatGrid
 {
 public:
     /// @param spacing of the nodes [m]; doubled until the box has few enough of them to be counted through
-    /// @param around all points that will be asked for; @param corner a node, but along periodic axes
-    HatGrid(double spacing, const Box& around, const Periodicity& periodicity, const Vec3& corner = Vec3::Zero());
+    /// @param around all points that will be asked for; @param corner a node
+    HatGrid(double spacing, const Box& around, const Vec3& corner = Vec3::Zero());
 
     HatPlace place_of(const Vec3& x) const;
-
-    /// From one cell to another along an axis, the short way round where it is periodic.
-    std::int32_t cells_between(int axis, std::int32_t from, std::int32_t to) const;
 
     /// Nodes are numbered from 0 to node_count() − 1. A cell has the number of its lowest node.
     std::size_t node_count() const;
@@ -58,10 +51,9 @@ public:
 
 private:
     Vec3 origin_;
-    Vec3 spacing_;
+    double spacing_;
     LatticeIndex low_ = {};    ///< the first node along each axis …
     LatticeIndex extent_ = {}; ///< … and how many there are
-    std::array<bool, 3> periodic_ = {};
 };
 
 } // namespace talus

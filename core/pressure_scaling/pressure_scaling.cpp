@@ -33,7 +33,7 @@ HatGrid make_grid(const State& state, const Model& model)
 {
     const Box around = box_of(state.position);
     const double spacing = std::max(hat_spacing * model.mean_diameter, widest_grain * model.max_diameter);
-    return {spacing, around.grown(0.5 * model.max_diameter), model.periodicity, model.contents.min};
+    return {spacing, around.grown(0.5 * model.max_diameter), model.contents.min};
 }
 
 /// t along α at which the energy is least, at most 1; 0 where it rises from the start.

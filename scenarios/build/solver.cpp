@@ -71,12 +71,17 @@ double depth_of(const Contents& all, const Model& model)
     return all.volume / packed_share / across / model.mean_diameter;
 }
 
+/// Along a periodic axis a bed presses against its own images, which balances whatever its size: there is nothing that
+/// keeps such a pressure from growing with the noise.
 bool pressure_is_scaled(const scene::SwitchOrName& asked, const Contents& all, double depth, const Model& model)
 {
-    if (asked.name != "auto") return asked.on;
-    // A bed presses against its own images: that balances whatever its size, so nothing seems to keep the pressure from
-    // growing. A flow down a periodic slope overlapped five times as much (hard case 35).
-    return !model.periodicity.any() && (depth >= deep || all.heaviest_body >= heavy * all.lightest);
+    const bool may_be = !model.periodicity.any();
+    if (asked.name == "auto") return may_be && (depth >= deep || all.heaviest_body >= heavy * all.lightest);
+    if (asked.on && !may_be)
+        throw SceneError("solver.pressure_scaling", "pressure scaling is not for periodic axes, where beads may be "
+                                                    "shot out of a bed by the pressure on its own "
+                                                    "images; leave it out, or write false");
+    return asked.on;
 }
 
 /// Whether contacts may be rigid, and it pays: nothing moves as it is told, or flows.

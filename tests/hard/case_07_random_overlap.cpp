@@ -127,9 +127,9 @@ TEST_CASE("7 10 000 spheres deep in each other, too many", "[hard]")
 {
     // 0.8 of a closed box cannot be filled without overlap: the densest lattice has 0.74, a random packing 0.64, which
     // leaves (0.8/0.64)^(1/3) - 1 = 8 % d on average. What can be asked of them is that they stay inside, and, moved
-    // apart first, as a run advises, slow and finite. As it is, each contact pushes with 0.03 m/s, and a
-    // pack that has nowhere to go adds these up to a hundred and fifty times that: it boils. It is the speed with which
-    // one contact opens, so the sum may be more in the other cases too, beside the spheres' free fall.
+    // apart first, as a run advises, slow and finite. As it is, each contact pushes with 0.03 m/s, and a pack that has
+    // nowhere to go adds these up to a hundred and fifty times that: it boils. It is the speed with which one contact
+    // opens, so the sum may be more in the other cases too, beside the spheres' free fall.
     HardCase hard("7 10 000 spheres deep in each other, too many");
     auto simulation = crowded_box(0.8, 1.0);
     const auto as_it_is = run(simulation, 0.8);

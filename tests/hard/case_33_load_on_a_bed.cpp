@@ -120,7 +120,7 @@ TEST_CASE("33 a load on a bed of 80 layers", "[hard]")
 
 TEST_CASE("33 a load on a bed of 160 layers", "[hard]")
 {
-    run(160, 1);
+    run(160, 3);
 }
 
 TEST_CASE("33 a lid that becomes heavier", "[hard]")

@@ -108,6 +108,16 @@ const std::vector<Mistake> of_the_rest = {
         "solver.pressure_scaling",
         "pressure scaling goes with stabilisation \"projected\" only; with \"matched\" contacts are too soft for it to "
         "matter"},
+    {[](S& s) {
+         s.solver.stabilisation = "projected";
+         s.solver.pressure_scaling = {true, ""};
+         s.world.periodic = {"x"};
+         s.world.min = Vec3::Zero();
+         s.world.max = Vec3::Ones();
+     },
+        "solver.pressure_scaling",
+        "pressure scaling is not for periodic axes, where beads may be shot out of a bed by the pressure on its own "
+        "images; leave it out, or write false"},
     {[](S& s) { s.world.gravity.setZero(); }, "time.step",
         "without gravity and speeds there is no automatic step: give one in seconds"},
     {[](S& s) {

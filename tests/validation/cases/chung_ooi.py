@@ -123,7 +123,7 @@ def judge(runs):
         angles = [angle for angle in CURVES_4 if slips(angle, FRICTION_4, RESTITUTION_4) == sliding]
         where = f"test 4, {word} (θ = {angles[0]} to {angles[-1]}°): largest deviation of"
         for k, (quantity, tolerance, high) in enumerate((("the tangential restitution", "0.01", 0.01),
-                                                         ("the angular velocity", "3 %", 0.03),
+                                                         ("the angular velocity / the curve's", "0.03", 0.03),
                                                          ("the rebound angle [deg]", "2", 2.0))):
             scale = {angle: CURVES_4[angle][k] if k == 1 else 1 for angle in angles}
             yield Row(f"{where} {quantity}", "0 (Chung & Ooi 2011)", tolerance, 0, high,

@@ -16,7 +16,8 @@ from case import Row
 from .beverloo import DIAMETER, PLAIN, flows, silo
 
 TITLE = "fill height, sizes and friction in Beverloo's silo"
-FINDINGS = ""
+FINDINGS = """Two thirds of the beads flow 3.0 ± 1.0 % faster than all, at the edge of the tolerance: chance, or a
+little of the height."""
 FRICTIONS = (0.0, 0.1, 0.3, 0.8)
 LOWER = silo(8, "_lower", **{"fill.0.count": 5500})
 ONE_SIZE = silo(8, "_one_size", **{"fill.0.diameter": DIAMETER})

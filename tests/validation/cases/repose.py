@@ -32,10 +32,10 @@ FINDINGS = """Both least rises are where angles hardly rise. That of sliding fri
 friction 0.2 here, with 0.05 in an earlier set (−0.6 ± 0.4); that of rolling friction is from 0.1 to 0.2 where sliding
 friction is 0.1, where two earlier sets had 2.0 and −1.1 ± 1.6. Three seeds scatter by a degree, and of twelve steps the
 least is the one that chance takes furthest down: a criterion of half a degree asks for more seeds than these. Where
-sliding friction is 1 heaps are about as steep as by the law of Zhou et al. (the figure); at 0.5 they are 7 to 8°
+sliding friction is 1 heaps are 1 to 4° less steep than by the law of Zhou et al. (the figure); at 0.5 they are 7 to 8°
 steeper, at 0.3 by 9 to 14°: the law falls as its power 0.49, angles at first hardly. At 0.3 and rolling friction 0.1
 other codes lie 6 to 9° above the law (one run each, the last rows), LIGGGHTS 2.6° higher with beads four times as
-stiff, perhaps since they reach their rolling torque sooner, and Talus 2 to 5° above them. With 0.5 and rolling friction
+stiff, perhaps since they reach their rolling torque sooner, and Talus 2 to 4° above them. With 0.5 and rolling friction
 0.1 the law has 24°, heaps through a funnel (tests/RESULTS.md) have 29.1° in Talus, 28.3° in LIGGGHTS and 26.8° in
 LAMMPS, and this ledge 31.0°. Rolling friction is a constant torque against a bead's own spin in the law's simulations;
 the DEM module of MOOSE (github.com/rochi00/moose, modules/dem/doc/content/validation.md) finds that the law does not
