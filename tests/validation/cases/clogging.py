@@ -89,7 +89,8 @@ def judge(runs):
                   "up to 100" if size == 2 else f"{low:.3g} to {high:.3g}", low, high,
                   tuple(until_clog(runs, simulations)))
     for size, highest in ((4, 0.5), (6, 0.0)):
-        beads = min(count for count, clogged in (passed(runs[run.name]) for run in FLOWING[size]) if not clogged)
+        found = [passed(runs[run.name]) for run in FLOWING[size]]
+        beads = min((count for count, has_clogged in found if not has_clogged), default=0)
         expected = 1 - math.exp(-beads / law(size)) if size < CRITICAL else 0
         yield Row(f"D/d = {size}: share of runs that clog; the others are of {beads} beads or more",
                   f"{expected:.2g} (Zuriguel et al. 2005, from memory)", f"up to {highest}", 0.0, highest,

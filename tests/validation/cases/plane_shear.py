@@ -69,9 +69,10 @@ def sheared(friction, number, name="", settings=None, seeds=SEEDS):
         "time.duration": end, "sensor.middle.from": begin, "sensor.shear.from": begin, **(settings or {})}, seeds)
 
 
+# Beside friction 0.5 and I = 0.04.
 OTHERS = {"a tenth of the tolerance": ("tolerance", {"solver.tolerance": 1e-3}),
           "beads of one size": ("one_size", {"fill.0.diameter.min": DIAMETER, "fill.0.diameter.max": DIAMETER}),
-          "restitution 0.7": ("restitution", {"contact.0.restitution": 0.7, "solver.tolerance": 1e-2})}  # beside friction 0.5, I = 0.04
+          "restitution 0.7": ("restitution", {"contact.0.restitution": 0.7, "solver.tolerance": 1e-2})}
 SHEARED = {friction: [sheared(friction, number) for number in numbers_of(friction)] for friction in FRICTIONS}
 CELLS = {fraction: Simulation(f"shear_cell_{fraction}", "shear_cell.lammps", {"fraction": fraction, "friction": 0.5},
                               program="lammps") for fraction in (0.585, 0.58)}
