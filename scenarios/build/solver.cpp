@@ -78,9 +78,9 @@ bool pressure_is_scaled(const scene::SwitchOrName& asked, const Contents& all, d
     const bool may_be = !model.periodicity.any();
     if (asked.name == "auto") return may_be && (depth >= deep || all.heaviest_body >= heavy * all.lightest);
     if (asked.on && !may_be)
-        throw SceneError("solver.pressure_scaling", "pressure scaling is not for periodic axes, where beads may be "
-                                                    "shot out of a bed by the pressure on its own "
-                                                    "images; leave it out, or write false");
+        throw SceneError("solver.pressure_scaling",
+            "pressure scaling is not for periodic axes, where beads may be shot out of a bed by the pressure on its "
+            "own images; leave it out, or write false");
     return asked.on;
 }
 
