@@ -22,9 +22,8 @@ struct ContactOutcome {
     ContactOutcome& operator+=(const ContactOutcome& other);
 };
 
-/// Stores the impulses of the solved contacts in their slots (an impact carries none), counts for how long contacts
-/// have been pressed, and notes each sphere's last wall.
-/// @param h of the step [s]
-ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model, double h);
+/// Stores the impulses of the solved contacts in their slots (an impact carries none), the compression of their springs,
+/// and which of them jam, and notes each sphere's last wall.
+ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model, const StepLength& step);
 
 } // namespace talus

@@ -32,8 +32,7 @@ public:
     std::vector<std::vector<std::uint32_t>> impacts; ///< by tile: its contacts between spheres that are such
 
     MeetingSurvey(const StepContacts& contacts, const State& state, const Model& model, double h)
-        : of(state.count()), impacts(contacts.spheres.size()), struck_(contacts.struck), loaded_(contacts.loaded),
-          state_(state), model_(model), h_(h)
+        : of(state.count()), impacts(contacts.spheres.size()), struck_(contacts.impacts), state_(state), model_(model), h_(h)
     {
     }
 
@@ -42,19 +41,13 @@ public:
         for (const std::size_t k : pistons.indices()) of[pistons.a(k)].held = true;
     }
 
-    /// Notes what struck spheres meet, and takes what waits for an impact out of the problem, but in a bed under load.
-    void survey_walls(TileContacts& walls)
+    void survey_walls(const TileContacts& walls)
     {
-        for (const std::size_t k : walls.indices()) {
-            if (!struck_[walls.a(k)]) continue;
-            if (walls.waits(k) && !(is_rigid() && loaded_[walls.a(k)]))
-                walls.take_out(k);
-            else
-                of[walls.a(k)].held = true;
-        }
+        for (const std::size_t k : walls.indices())
+            if (walls.kind(k) != ContactKind::deferred) of[walls.a(k)].held = true;
     }
 
-    void survey_spheres(TileContacts& spheres, std::size_t tile)
+    void survey_spheres(const TileContacts& spheres, std::size_t tile)
     {
         for (std::size_t p = 0; p < spheres.packs(); ++p)
             for (unsigned lanes = struck_lanes(spheres, p); lanes != 0; lanes &= lanes - 1)
@@ -78,7 +71,7 @@ public:
     }
 
 private:
-    const std::vector<std::uint8_t>&struck_, &loaded_; ///< by sphere
+    const std::vector<SphereImpacts>& struck_; ///< by sphere
     const State& state_;
     const Model& model_;
     double h_;
@@ -89,20 +82,16 @@ private:
         const ContactPack& pack = spheres.pack(p);
         unsigned lanes = 0;
         for (unsigned lane = 0; lane < pack_size && pack.a[lane] >= 0; ++lane)
-            lanes |= static_cast<unsigned>(struck_[pack.a[lane]] | struck_[pack.b[lane]]) << lane;
+            lanes |= static_cast<unsigned>(struck_[pack.a[lane]].size > 0.0 || struck_[pack.b[lane]].size > 0.0) << lane;
         return lanes & spheres.record(p).in_problem;
     }
 
-    void survey(TileContacts& spheres, std::size_t k, std::size_t tile)
+    void survey(const TileContacts& spheres, std::size_t k, std::size_t tile)
     {
-        const std::int32_t a = spheres.a(k), b = spheres.b(k);
-        const bool in_loaded_bed = is_rigid() ? loaded_[a] | loaded_[b] : loaded_[a] & loaded_[b];
-        if (spheres.waits(k) && !in_loaded_bed) return spheres.take_out(k);
+        if (spheres.kind(k) == ContactKind::deferred) return;
         note(spheres, k);
         if (spheres.kind(k) == ContactKind::impact) impacts[tile].push_back(static_cast<std::uint32_t>(k));
     }
-
-    bool is_rigid() const { return model_.solver.stabilisation == Stabilisation::projected; }
 
     void note(const TileContacts& spheres, std::size_t k)
     {

@@ -13,7 +13,7 @@ constexpr double deepest_in_wall = 0.25; ///< smallest diameters
 /// What overlaps after an impact parts by itself: to move it would add energy.
 bool overlap_stays(const ContactGeometry& geometry)
 {
-    return geometry.kind != ContactKind::impact;
+    return geometry.kind != ContactKind::impact && geometry.kind != ContactKind::deferred;
 }
 
 void separate_spheres(const Contact& c, State& state, const Periodicity& periodicity, double share)

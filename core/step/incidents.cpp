@@ -14,7 +14,7 @@ namespace
 {
 
 /// Loaded contacts of this overlap join bodies to a group, in smallest diameters: far more than they have at rest.
-constexpr double joining_overlap = 0.1 * pressed_overlap;
+constexpr double joining_overlap = 1e-3;
 
 /// An overlap with a wall that has just appeared which tells that it stands inside a sphere, in smallest diameters.
 constexpr double inside = 0.05;

@@ -31,7 +31,7 @@ struct Incident {
     bool is_harmless() const { return kind == Kind::appeared_inside; }
 };
 
-/// An incident for each group of bodies that loaded contacts with a tenth of pressed_overlap join together, where a
+/// An incident for each group of bodies that loaded contacts that overlap by a thousandth of the smallest diameter join together, where a
 /// contact came to be jammed in this step, and none of the group was before.
 std::vector<Incident> find_presses(const ContactNetwork& network, const State& state, const Model& model);
 

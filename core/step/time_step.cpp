@@ -3,6 +3,7 @@
 
 #include "core/candidates/candidate_search.hpp"
 #include "core/candidates/curve_order.hpp"
+#include "core/contacts/beside_impacts.hpp"
 #include "core/packs/law.hpp"
 #include "core/solver/flight.hpp"
 #include "core/solver/piston_group.hpp"
@@ -137,7 +138,10 @@ void StepReport::then(StepReport next)
     contacts.then(next.contacts);
     solve.then(next.solve);
     scaling.then(next.scaling);
+    const double stored_energy = next.outcome.stored_energy;
     outcome += next.outcome;
+    outcome.stored_energy = stored_energy;
+    lifted_energy += next.lifted_energy;
     bodies.then(std::move(next.bodies));
     for (std::size_t w = 0; w < wall_loads.size(); ++w) wall_loads[w] += next.wall_loads[w];
 }
@@ -151,14 +155,17 @@ PreparedStep prepare_step(
     if (observer) observer(Phase::search);
     prepared.impulse_scale = scale_impulses(state, network, step.h());
     renumber_along_curve(state, network, model);
-    prepared.walls = place_walls(model, state, step.h(), network.carried.step_before);
+    prepared.walls = place_walls(model, state, step.h());
     prepared.search.searched = update_candidates(network.list, network.carried, state, model, step.h(), prepared.walls);
     prepared.search.candidates = network.list.size();
 
     // Which do, under which law, and with what impulse to begin with?
     if (observer) observer(Phase::assembly);
     prepared.contacts = assemble_contacts(network, state, model, step, prepared.walls);
-    if (prepared.contacts.impacts > 0) prepared.flights = place_impacts(network, state, model, step.h());
+    if (prepared.contacts.impacts > 0) {
+        prepared.impact_ratio = stand_beside_impacts(network, state, model, law_of_step(model, step));
+        prepared.flights = place_impacts(network, state, model, step.h());
+    }
     return prepared;
 }
 
@@ -225,7 +232,7 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     // What there is to tell, and what the next step begins with.
     enter(Phase::report);
     mark_leaving(state, model.outlets);
-    report.outcome = carry_impulses(network, state, model, h);
+    report.outcome = carry_impulses(network, state, model, step);
     report.bodies = survey_state(state, model, step);
     report.bodies.load_work = load_work;
     survey_own_forces(report.bodies, state, h);

@@ -69,6 +69,7 @@ struct PreparedStep {
     SearchReport search;
     ContactSurvey contacts;
     std::vector<Flight> flights;
+    double impact_ratio = 0.0;  ///< of stand_beside_impacts
     double impulse_scale = 1.0; ///< of the carried impulses, where the step before had another length
 };
 
