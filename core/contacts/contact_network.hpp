@@ -20,16 +20,19 @@ struct AssemblyRoom {
     std::vector<std::uint32_t> near; ///< candidates of a tile
 };
 
-/// The impacts of a sphere in a step: the largest, and with which mass. Tiles that share it may note some at once.
+/// What a sphere has that has an impact in this step. Tiles that share it may note it at once.
 struct SphereImpacts {
-    double size = 0.0; ///< that the impact would have by itself [N s]; 0: there is none
-    double mass = 0.0; ///< heaviest that it meets [kg]
+    double size = 0.0; ///< impulse of its largest impact, had it that alone [N s]; 0: it has none
+    double mass = 0.0; ///< heaviest that it meets so [kg]
+    double load = 0.0; ///< largest normal impulse that its contacts brought from the step before [N s]
 
     void note(double impulse, double other_mass)
     {
         raise(size, impulse);
         raise(mass, other_mass);
     }
+
+    void note_load(double impulse) { raise(load, impulse); }
 
 private:
     static void raise(double& number, double to)

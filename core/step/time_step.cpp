@@ -21,6 +21,8 @@ namespace
 
 constexpr std::int64_t audit_interval = 16;         ///< steps; gains of contacts are looked for in one of so many
 constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
+constexpr double usual_ratio = 10.0;                 ///< of masses in an impact on what bears
+constexpr double most_sweeps = 1e5;
 constexpr std::size_t few_spheres = 1000;           ///< that one thread takes faster than several
 
 /// Brings the spheres into the order of a space-filling curve now and then, for the sake of the cache.
@@ -124,6 +126,17 @@ double fastest_of(const State& state, const std::vector<Flight>& flights, double
     return fastest;
 }
 
+/// Where a sphere that bears on others is struck by one of R > 10 times its mass, sweeps that stop at the usual ε leave
+/// most of the impact undone: such a step converges further, and is cheaper in the end than the bounces of many.
+SolverSettings solver_for(const PreparedStep& prepared, SolverSettings solver)
+{
+    const double ratio = prepared.impact_ratio;
+    if (ratio <= usual_ratio) return solver;
+    solver.tolerance = std::min(solver.tolerance, 0.1 / ratio);
+    solver.max_sweeps = std::max(solver.max_sweeps, static_cast<int>(std::min(3.0 * ratio, most_sweeps)));
+    return solver;
+}
+
 } // namespace
 
 void SearchReport::then(const SearchReport& next)
@@ -205,7 +218,8 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     }
 
     // The contact impulses: every contact in turn until all laws hold.
-    report.solve = solve_contacts(network, pistons, state.motion, model.physics, model.solver, warm_size, sweeps);
+    report.solve = solve_contacts(
+        network, pistons, state.motion, model.physics, solver_for(prepared, model.solver), warm_size, sweeps);
     pistons.store(network, state);
     if (fastest_of(state, prepared.flights, h, fastest) > fastest) {
         network.before.put_back(state);
