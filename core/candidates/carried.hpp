@@ -20,7 +20,7 @@ class TouchRecord
 public:
     /// In the step before it had an impulse, other than that of an impact.
     bool is_loaded() const { return state_ == 1 || is_jammed(); }
-    /// In the step before it was an impact.
+    /// In the step before it was an impact, or it has yielded since it was.
     bool was_impact() const { return state_ == 2; }
     bool is_jammed() const { return state_ > 2; }
     /// In the step before, it came to be so.
@@ -34,7 +34,7 @@ public:
     {
         if (is_jammed() || at_largest)
             state_ = is_jammed() ? 4 : 3;
-        else
+        else if (!was_impact())
             state_ = 1;
     }
 

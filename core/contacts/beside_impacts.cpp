@@ -79,11 +79,12 @@ private:
         const SphereImpacts &a = impacts_[contacts_.a(k)], &b = with_walls_ ? a : impacts_[contacts_.b(k)];
         const double impact = std::max(a.size, b.size), load = contacts_.impulse(k).dot(contacts_.normal(k));
         const bool is_loaded = load >= load_share * impact, was_impact = own.touch.was_impact();
+        const bool parts = was_impact && u_n > touching_gap * step.min_diameter / step.h; // but for rounding
         // What impacts press on beside them is no load that a contact may count on, but what its spheres bore.
         const double hands_on = std::max(a.load, b.load);
         if (!is_loaded && !was_impact)
-            contacts_.set_law(k, ContactKind::deferred, deferred_target(own.gap, u_n, step), -INFINITY, hands_on);
-        else if ((was_impact && u_n > 0.0) || (is_loaded && load < light_share * impact))
+            contacts_.set_law(k, ContactKind::deferred, deferred_target(own.gap, u_n, step), -INFINITY, 0.0);
+        else if (parts || (is_loaded && load < light_share * impact))
             contacts_.set_law(k, ContactKind::bearing, bearing_target(own.gap, u_n, step),
                 static_cast<float>(borne_compression(own.compression, u_n, step)), hands_on);
         return is_loaded;

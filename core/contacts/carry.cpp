@@ -21,10 +21,10 @@ TouchRecord noted(const TileContacts& contacts, std::size_t k)
     const ContactGeometry geometry = contacts.geometry(k);
     const double along = contacts.impulse(k).dot(contacts.normal(k)), largest = contacts.terms(k).largest;
     TouchRecord touch = geometry.touch;
-    if (largest < infinity)
-        touch.note_yield(along >= nearly_all * largest);
-    else if (along > 0.0 && geometry.kind == ContactKind::impact)
+    if (along > 0.0 && geometry.kind == ContactKind::impact)
         touch.note_impact();
+    else if (largest < infinity)
+        touch.note_yield(along >= nearly_all * largest);
     else
         touch.note_load(along > 0.0);
     return touch;
@@ -40,6 +40,7 @@ ContactOutcome carry_between_spheres(
         HandedOn handed = fastest_kernels().touch.hand_on(contacts.pack(p), contacts.record(p), deep, law, records);
         outcome.cone_violation = std::max(outcome.cone_violation, handed.cone_violation);
         outcome.stored_energy += handed.stored_energy;
+        outcome.push_out_energy += handed.push_out_energy;
         for (unsigned lanes = handed.deep_lanes; lanes != 0; lanes &= lanes - 1) {
             const std::size_t k = pack_size * p + static_cast<std::size_t>(std::countr_zero(lanes));
             const TouchRecord touch = noted(contacts, k);
@@ -73,6 +74,8 @@ ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, 
         const double u_n = contacts.contact(k).target - terms.compliance * along;
         const double kappa = compression_after<double>(own.compression, u_n, along, own.restitution, law);
         const bool keeps_spring = kappa > touching_gap * law.min_diameter;
+        if (own.kind == ContactKind::resting || own.kind == ContactKind::yielding)
+            outcome.push_out_energy += push_out_energy<double>(own.compression, own.gap, contacts.contact(k).target, along, law);
         if (keeps_spring)
             outcome.stored_energy += spring_energy<double>(kappa, u_n, own.spring, terms.inverse_mass_sum, law);
         carried.contact[own.slot].impulse = (along > own.hands_on ? own.hands_on / along : 1.0) * impulse;
@@ -114,6 +117,7 @@ ContactOutcome& ContactOutcome::operator+=(const ContactOutcome& other)
     from_walls += other.from_walls;
     from_pistons += other.from_pistons;
     wall_work += other.wall_work;
+    push_out_energy += other.push_out_energy;
     stored_energy += other.stored_energy;
     newly_jammed += other.newly_jammed;
     return *this;

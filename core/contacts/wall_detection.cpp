@@ -57,27 +57,31 @@ void WallDetection::add_points(WallPair& pair, const Vec3& x, double radius)
 /// Gaps that close within the horizon, or are small. @param touching so many meetings are none
 void WallDetection::add_gaps(WallPair& pair, const Vec3& x, std::size_t touching)
 {
-    const auto begin = meetings_.begin(), end = begin + static_cast<std::ptrdiff_t>(touching);
+    const std::vector<WallMeeting> known(meetings_.begin(), meetings_.begin() + static_cast<std::ptrdiff_t>(touching));
     const auto touched = [&](std::int32_t patch) {
-        return std::any_of(
-            begin, end, [&](const WallMeeting& known) { return known.pair == &pair && known.at.patch == patch; });
+        return std::ranges::any_of(
+            known, [&](const WallMeeting& meeting) { return meeting.pair == &pair && meeting.at.patch == patch; });
     };
     const std::int32_t* patches = network_.list.patches.data() + pair.first;
     if (pair.patches == 1 && touched(patches[0])) return;
     const PlacedWall& wall = walls_[pair.wall];
     const Motion& m = state_.motion[pair.sphere];
-    const Vec3 velocity = free_velocity(wall, m, x, static_cast<std::size_t>(patches[0]));
+    Vec3 velocity = free_velocity(wall, m, x, static_cast<std::size_t>(patches[0]));
+    // What bears the sphere lets it sink no further: else it would meet the rims of what is level with it.
+    for (const WallMeeting& meeting : known)
+        velocity -= std::min(0.0, meeting.at.normal.dot(velocity)) * meeting.at.normal;
     const double reach = std::max(step_.reach, step_.horizon * velocity.norm());
     const std::size_t first = meetings_.size();
     add_points(pair, x + step_.law.h * velocity, m.radius + reach);
     for (std::size_t k = first; k < meetings_.size(); ++k)
         meetings_[k].at = nearest_on_path(wall, meetings_[k].at, x, velocity);
-    std::erase_if(meetings_, [&](const WallMeeting& meeting) {
-        if (&meeting < &meetings_[first]) return false;
+    const auto is_none = [&](const WallMeeting& meeting) {
         const double gap = meeting.at.normal.dot(x - meeting.at.point) - m.radius;
         const double u_n = meeting.at.normal.dot(velocity);
         return touched(meeting.at.patch) || (gap > step_.reach && gap + step_.horizon * u_n > 0.0);
-    });
+    };
+    meetings_.erase(std::remove_if(meetings_.begin() + static_cast<std::ptrdiff_t>(first), meetings_.end(), is_none),
+        meetings_.end());
 }
 
 /// Drops meetings from `from` on that lie behind a nearer one of them, or behind one of the first `behind_all`.

@@ -37,6 +37,7 @@ struct SweepKernel {
 struct HandedOn {
     double cone_violation = 0.0; ///< worst |λ_t| − μ λ_n [N s], at least 0
     double stored_energy = 0.0;  ///< in springs [J]
+    double push_out_energy = 0.0; ///< of contacts without one [J]
     unsigned deep_lanes = 0;     ///< as bits
 };
 

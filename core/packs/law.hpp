@@ -33,7 +33,7 @@ inline constexpr double light_share = 0.1;
 inline constexpr double yield_compression = 0.03;
 
 /// Overlap up to which a contact is deferred beside an impact, in smallest diameters.
-inline constexpr double deferred_overlap = 0.25;
+inline constexpr double deferred_overlap = 0.4;
 
 /// What the laws of all contacts of a step share.
 struct LawOfStep {
@@ -67,6 +67,7 @@ template <class N> struct ContactEvent {
     N stiffness;        ///< k [N/m]
     N load;             ///< λ_n of the step before [N s] …
     N compression;      ///< … and the κ that it has left [m]
+    Answer<N> struck;   ///< it was an impact then, or has been deep since it was
 };
 
 template <class N> [[gnu::always_inline]] inline N smaller(const N& a, const N& b)
@@ -130,12 +131,21 @@ template <class N> [[gnu::always_inline]] inline N impact_size(const ContactEven
     return (1.0 + event.restitution) * larger<N>(N{}, -event.u_n) / event.inverse_mass_sum;
 }
 
+/// Whether a contact is so deep that it yields.
+template <class N> [[gnu::always_inline]] inline Answer<N> yields(const N& gap, const LawOfStep& step)
+{
+    return -gap > N{} + yield_compression * step.min_diameter;
+}
+
 /// Whether a contact is an impact in this step: it closes, faster than gravity alone would have it, and has no load.
+/// What an impact has not stopped before it is deep, yields.
 template <class N>
 [[gnu::always_inline]] inline Answer<N> is_impact(const ContactEvent<N>& event, const LawOfStep& step)
 {
     const Answer<N> closes = touches<N>(event.gap, step) | (event.closes < N{} + step.h);
-    return (event.u_n < N{} - step.threshold_speed) & closes & (event.load < load_share * impact_size<N>(event));
+    const Answer<N> unstopped = event.struck & yields<N>(event.gap, step);
+    return (event.u_n < N{} - step.threshold_speed) & closes & (event.load < load_share * impact_size<N>(event)) &
+           (!unstopped);
 }
 
 /// The target of a row that has no spring. A rigid row adds ½ λ_n (u_n⁺ + u_n) to the energy of a step, whatever other
@@ -156,17 +166,18 @@ template <class N>
     const N share = step.parts > 1.0 ? feedback_share<N>(compliance, event.inverse_mass_sum, step) : none + 1.0;
     const N per_way = 4.0 * upsilon / step.h * share; // of feedback: the speed that it asks for, by κ
 
-    const Answer<N> open = event.gap > least, yields = -event.gap > strength, rests = !(open | yields | impact);
+    const Answer<N> open = event.gap > least, is_deep = yields<N>(event.gap, step);
+    const Answer<N> rests = !(open | is_deep | impact);
     const N before = event.compression > least ? event.compression : none;
     const N kappa = smaller<N>(-event.gap, before + step.h * step.push_out_speed);
     const Answer<N> is_spring = step.rigid ? Answer<N>{} : rests & (before > 0.0);
     const N yielding = smaller<N>(none + step.push_out_speed, per_way * strength);
-    const N push = open ? -event.gap / step.h : (step.rigid ? none : (yields ? yielding : per_way * kappa));
+    const N push = open ? -event.gap / step.h : (step.rigid ? none : (is_deep ? yielding : per_way * kappa));
 
     const N target = impact ? -event.restitution * event.u_n : (is_spring ? push : passive_target<N>(push, event.u_n));
     const Answer<N> keeps = step.rigid ? Answer<N>{} : is_spring | (rests & (event.u_n < least / step.h));
     return {target, step.rigid ? none : (rests ? compliance : none),
-        (yields & !impact) ? per_way * strength / compliance : infinite, keeps ? kappa : -infinite};
+        (is_deep & !impact) ? per_way * strength / compliance : infinite, keeps ? kappa : -infinite};
 }
 
 /// A contact that had no load beside an impact of one of its spheres is deferred: it does not close further than to a
@@ -199,6 +210,15 @@ template <class N>
     const N gives_way = fast > 0.0 ? fast * (1.0 / (restitution * restitution) - 1.0) : N{};
     const N after = kappa - step.h * (u_n + gives_way);
     return ((impulse > 0.0) & (after > 0.0)) ? after : N{};
+}
+
+/// What a contact that has no spring may have put in, pushing out what overlaps [J].
+template <class N>
+[[gnu::always_inline]] inline N push_out_energy(
+    const N& kappa, const N& gap, const N& target, const N& impulse, const LawOfStep& step)
+{
+    const N push = smaller<N>(N{} + step.push_out_speed, -gap * (4.0 * upsilon / step.h));
+    return ((kappa < 0.0) & (target > 0.0)) ? impulse * push : N{};
 }
 
 } // namespace talus

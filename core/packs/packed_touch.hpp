@@ -150,7 +150,7 @@ template <int width>
     const Vector<width> carried = Vector<width>::load(touch.carried, first);
     const N w = number(contact.inverse_mass_sum), arm_scale = number(contact.arm_scale);
     const ContactEvent<N> event{number(touch.gap), number(touch.u_n), number(touch.closes), w, number(touch.restitution),
-        number(touch.stiffness), larger<N>(none, carried.dot(normal)), number(touch.compression)};
+        number(touch.stiffness), larger<N>(none, carried.dot(normal)), number(touch.compression), load_flags<width>(touch.struck + first)};
     const F closes = is_impact<N>(event, step.law), impact = closes & within_reach;
     const NormalLaw<N> law = normal_law<N>(event, impact, step.law);
     const Vector<width> warm = warm_impulse<width>(carried, normal, number(contact.friction), impact);
@@ -212,6 +212,7 @@ template <int width>
     const auto carried = CarriedRecords<width>::gather(slot, spheres.carried);
     carried.impulse.store(touch.carried, first);
     store<width>(touch.compression + first, carried.compression);
+    store<width>(touch.struck + first, carried.touch == std::int64_t{2});
     narrow<width>(record.touch + first, carried.touch);
 }
 
@@ -237,7 +238,7 @@ template <int width>
     store_floats<width>(record.compression + first, load<width>(touch.compression + first));
     store_floats<width>(record.spring + first, load<width>(touch.spring + first));
     store_floats<width>(record.restitution + first, load<width>(touch.restitution + first));
-    store_floats<width>(record.hands_on + first, kind == std::int64_t{2} ? none : none + __builtin_inf());
+    store_floats<width>(record.hands_on + first, (kind == std::int64_t{1}) | (kind == std::int64_t{2}) ? none : none + __builtin_inf());
     narrow<width>(reinterpret_cast<std::uint8_t*>(record.kind) + first, within_reach & kind);
     narrow<width>(record.touch + first, within_reach & widened<width>(record.touch + first));
     record.in_problem |= static_cast<std::uint8_t>(bits<width>(within_reach) << first);
@@ -282,16 +283,21 @@ HandedOn hand_on(const ContactPack& contact, RecordPack& record, double deep, co
         const N kappa = compression_after<N>(load_floats<width>(record.compression + first), u_n, along,
             load_floats<width>(record.restitution + first), law);
         const N energy = spring_energy<N>(kappa, u_n, spring, w, law);
+        const N gap = load<width>(record.gap + first);
+        const N pushed = push_out_energy<N>(
+            load_floats<width>(record.compression + first), gap, load<width>(contact.target + first), along, law);
+        const F kind = widened<width>(reinterpret_cast<const std::uint8_t*>(record.kind) + first);
+        const F may_push = (kind == std::int64_t{0}) | (kind == std::int64_t{3});
         const F keeps_spring = kappa > touching_gap * law.min_diameter;
         for (int lane = 0; lane < width; ++lane) {
             handed.cone_violation = handed.cone_violation < excess[lane] ? excess[lane] : handed.cone_violation;
             handed.stored_energy += keeps_spring[lane] ? energy[lane] : 0.0;
+            handed.push_out_energy += may_push[lane] ? pushed[lane] : 0.0;
         }
 
         const N most = load_floats<width>(record.hands_on + first);
         const N share = along > most ? most / along : none + 1.0;
-        const F is_deep = -load<width>(record.gap + first) > none + deep;
-        const F kind = widened<width>(reinterpret_cast<const std::uint8_t*>(record.kind) + first);
+        const F is_deep = -gap > none + deep;
         const F now = (along > 0.0) & (kind == std::int64_t{2} ? F{} + 2 : F{} + 1);
         const F touch = is_deep ? widened<width>(record.touch + first) : now;
         narrow<width>(record.touch + first, touch);

@@ -177,7 +177,7 @@ PreparedStep prepare_step(
     prepared.contacts = assemble_contacts(network, state, model, step, prepared.walls);
     if (prepared.contacts.impacts > 0) {
         prepared.impact_ratio = stand_beside_impacts(network, state, model, law_of_step(model, step));
-        prepared.flights = place_impacts(network, state, model, step.h());
+        prepared.flights = find_flights(network, state, model, step.h());
     }
     return prepared;
 }
