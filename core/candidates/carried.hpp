@@ -19,16 +19,19 @@ class TouchRecord
 {
 public:
     /// In the step before it had an impulse, other than that of an impact.
-    bool is_loaded() const { return state_ == 1 || is_jammed(); }
+    bool is_loaded() const { return state_ == 1 || state_ >= 3; }
+    /// In the step before it closed a gap.
+    bool was_open() const { return state_ == 5; }
     /// In the step before it was an impact, or it has yielded since it was.
     bool was_impact() const { return state_ == 2; }
-    bool is_jammed() const { return state_ > 2; }
+    bool is_jammed() const { return state_ == 3 || state_ == 4; }
     /// In the step before, it came to be so.
     bool is_newly_jammed() const { return state_ == 3; }
 
     /// A step in which it does not yield.
     void note_load(bool loaded) { state_ = loaded; }
     void note_impact() { state_ = 2; }
+    void note_closing() { state_ = 5; }
     /// A step in which it yields. @param at_largest with all the impulse that it bears
     void note_yield(bool at_largest)
     {
@@ -39,7 +42,8 @@ public:
     }
 
 private:
-    std::uint8_t state_ = 0; ///< 0: not loaded; 1: loaded; 2: impact; 3: jammed in the step before; 4: longer
+    std::uint8_t state_ = 0; ///< 0: not loaded; 1: loaded; 2: impact; 3: jammed in the step before; 4: longer; 5: it
+                             ///< had a gap
 };
 
 /// What a contact hands on from one step to the next; zeros where nothing is.

@@ -25,6 +25,8 @@ TouchRecord noted(const TileContacts& contacts, std::size_t k)
         touch.note_impact();
     else if (largest < infinity)
         touch.note_yield(along >= nearly_all * largest);
+    else if (along > 0.0 && geometry.kind == ContactKind::open)
+        touch.note_closing();
     else
         touch.note_load(along > 0.0);
     return touch;

@@ -52,6 +52,7 @@ public:
         const CarriedContact& carried = carried_.contact[at.slot];
         for (int d = 0; d < 3; ++d) touch_.carried[d][lane] = carried.impulse[d];
         touch_.compression[lane] = carried.compression;
+        touch_.pushed[lane] = -static_cast<std::int64_t>(carried.touch.was_open());
         touch_.struck[lane] = -static_cast<std::int64_t>(carried.touch.was_impact());
         touch_.gap[lane] = at.gap;
         touch_.u_n[lane] = at.u_n;
@@ -113,7 +114,7 @@ private:
                 .compression = static_cast<float>(touch_.compression[lane]),
                 .spring = static_cast<float>(touch_.spring[lane]),
                 .restitution = static_cast<float>(touch_.restitution[lane]),
-                .hands_on = is_impact || kind == ContactKind::open ? 0.0F : INFINITY});
+                .hands_on = is_impact ? 0.0F : INFINITY});
         if (contacts_.has_moving_walls()) contacts_.set_wall(k, row_[lane]);
         if (contacts_.has_rolling()) {
             const Motion& m = state_.motion[sphere];

@@ -149,8 +149,9 @@ template <int width>
     const Vector<width> normal = Vector<width>::load(contact.normal, first);
     const Vector<width> carried = Vector<width>::load(touch.carried, first);
     const N w = number(contact.inverse_mass_sum), arm_scale = number(contact.arm_scale);
+    const F pushed = load_flags<width>(touch.pushed + first);
     const ContactEvent<N> event{number(touch.gap), number(touch.u_n), number(touch.closes), w, number(touch.restitution),
-        number(touch.stiffness), larger<N>(none, carried.dot(normal)), number(touch.compression), load_flags<width>(touch.struck + first)};
+        number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)), number(touch.compression), load_flags<width>(touch.struck + first)};
     const F closes = is_impact<N>(event, step.law), impact = closes & within_reach;
     const NormalLaw<N> law = normal_law<N>(event, impact, step.law);
     const Vector<width> warm = warm_impulse<width>(carried, normal, number(contact.friction), impact);
@@ -171,12 +172,12 @@ template <int width>
 
     const N spring = spring_compliance<N>(event.stiffness, w, step.law);
     const N least = none + touching_gap * step.law.min_diameter, before = smaller<N>(-event.gap, event.compression);
-    const F pushed = within_reach & (law.compression > none), stored = pushed & (event.compression > least);
+    const F keeps = within_reach & (law.compression > none), stored = keeps & (event.compression > least);
     const N energy = spring_energy<N>(law.compression, event.u_n, spring, w, step.law);
     const N energy_before = spring_energy<N>(before, event.u_n, spring, w, step.law);
     const N pushed_alone = spring_energy<N>(law.compression, none, spring, w, step.law);
-    put(touch.stored_energy, stored ? energy : (pushed ? pushed_alone : none));
-    put(touch.push_out_energy, stored ? energy - energy_before : (pushed ? pushed_alone : none));
+    put(touch.stored_energy, stored ? energy : (keeps ? pushed_alone : none));
+    put(touch.push_out_energy, stored ? energy - energy_before : (keeps ? pushed_alone : none));
     put(touch.spring, spring);
     put(touch.impact_size, impact ? impact_size<N>(event) : none);
     store<width>(touch.compression + first, law.compression);
@@ -212,6 +213,7 @@ template <int width>
     const auto carried = CarriedRecords<width>::gather(slot, spheres.carried);
     carried.impulse.store(touch.carried, first);
     store<width>(touch.compression + first, carried.compression);
+    store<width>(touch.pushed + first, carried.touch == std::int64_t{5});
     store<width>(touch.struck + first, carried.touch == std::int64_t{2});
     narrow<width>(record.touch + first, carried.touch);
 }
@@ -238,7 +240,7 @@ template <int width>
     store_floats<width>(record.compression + first, load<width>(touch.compression + first));
     store_floats<width>(record.spring + first, load<width>(touch.spring + first));
     store_floats<width>(record.restitution + first, load<width>(touch.restitution + first));
-    store_floats<width>(record.hands_on + first, (kind == std::int64_t{1}) | (kind == std::int64_t{2}) ? none : none + __builtin_inf());
+    store_floats<width>(record.hands_on + first, kind == std::int64_t{2} ? none : none + __builtin_inf());
     narrow<width>(reinterpret_cast<std::uint8_t*>(record.kind) + first, within_reach & kind);
     narrow<width>(record.touch + first, within_reach & widened<width>(record.touch + first));
     record.in_problem |= static_cast<std::uint8_t>(bits<width>(within_reach) << first);
@@ -298,7 +300,7 @@ HandedOn hand_on(const ContactPack& contact, RecordPack& record, double deep, co
         const N most = load_floats<width>(record.hands_on + first);
         const N share = along > most ? most / along : none + 1.0;
         const F is_deep = -gap > none + deep;
-        const F now = (along > 0.0) & (kind == std::int64_t{2} ? F{} + 2 : F{} + 1);
+        const F now = (along > 0.0) & (kind == std::int64_t{2} ? F{} + 2 : (kind == std::int64_t{1} ? F{} + 5 : F{} + 1));
         const F touch = is_deep ? widened<width>(record.touch + first) : now;
         narrow<width>(record.touch + first, touch);
         handed.deep_lanes |= bits<width>(is_deep) << first;
