@@ -127,7 +127,7 @@ ContactOutcome& ContactOutcome::operator+=(const ContactOutcome& other)
 
 ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model, const StepLength& length)
 {
-    const double h = length.h(), deep = yield_compression * model.min_diameter;
+    const double h = length.h(), deep = yield_overlap * model.min_diameter;
     const LawOfStep law = law_of_step(model, length);
     StepContacts& contacts = network.contacts;
     const auto tiles = static_cast<std::int64_t>(contacts.spheres.size());

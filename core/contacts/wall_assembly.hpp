@@ -55,6 +55,7 @@ public:
         touch_.pushed[lane] = -static_cast<std::int64_t>(carried.touch.was_open());
         touch_.struck[lane] = -static_cast<std::int64_t>(carried.touch.was_impact());
         touch_.gap[lane] = at.gap;
+        touch_.diameter[lane] = 2.0 * state_.radius(at.sphere);
         touch_.u_n[lane] = at.u_n;
         touch_.closes[lane] = at.closes;
         slot_[lane] = at.slot;

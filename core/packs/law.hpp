@@ -29,8 +29,11 @@ inline constexpr double load_share = 1e-4;
 /// An impact below this share of a contact's load is light: the contact stays a spring beside it.
 inline constexpr double light_share = 0.1;
 
-/// Compression at which a contact yields, in smallest diameters; a contact that overlaps more has no spring.
-inline constexpr double yield_compression = 0.03;
+/// A contact that overlaps more than this has no spring and yields; in diameters of its smaller sphere.
+inline constexpr double yield_overlap = 0.03;
+
+/// How near the centre the strength of a contact grows, in the same diameters.
+inline constexpr double least_rest = 0.01;
 
 /// Overlap up to which a contact is deferred beside an impact, in smallest diameters.
 inline constexpr double deferred_overlap = 0.4;
@@ -60,6 +63,7 @@ template <class N> struct NormalLaw {
 /// What the law of a contact depends on.
 template <class N> struct ContactEvent {
     N gap;              ///< g [m]
+    N diameter;         ///< of the smaller sphere [m]
     N u_n;              ///< of v⁽⁰⁾, before gravity [m/s]
     N closes;           ///< when the gap does so, with v⁽¹⁾ [s]
     N inverse_mass_sum; ///< W [1/kg]
@@ -132,9 +136,17 @@ template <class N> [[gnu::always_inline]] inline N impact_size(const ContactEven
 }
 
 /// Whether a contact is so deep that it yields.
-template <class N> [[gnu::always_inline]] inline Answer<N> yields(const N& gap, const LawOfStep& step)
+template <class N> [[gnu::always_inline]] inline Answer<N> yields(const ContactEvent<N>& event)
 {
-    return -gap > N{} + yield_compression * step.min_diameter;
+    return -event.gap > yield_overlap * event.diameter;
+}
+
+/// By how much stronger a contact is that overlaps more than where it begins to yield: none is as deep as the centre of
+/// its smaller sphere.
+template <class N> [[gnu::always_inline]] inline N strengthening(const ContactEvent<N>& event)
+{
+    const N rest = larger<N>(N{} + least_rest, 0.5 + event.gap / event.diameter), growth = (0.5 - yield_overlap) / rest;
+    return growth * growth;
 }
 
 /// Whether a contact is an impact in this step: it closes, faster than gravity alone would have it, and has no load.
@@ -143,7 +155,7 @@ template <class N>
 [[gnu::always_inline]] inline Answer<N> is_impact(const ContactEvent<N>& event, const LawOfStep& step)
 {
     const Answer<N> closes = touches<N>(event.gap, step) | (event.closes < N{} + step.h);
-    const Answer<N> unstopped = event.struck & yields<N>(event.gap, step);
+    const Answer<N> unstopped = event.struck & yields<N>(event);
     return (event.u_n < N{} - step.threshold_speed) & closes & (event.load < load_share * impact_size<N>(event)) &
            (!unstopped);
 }
@@ -161,23 +173,25 @@ template <class N>
     const ContactEvent<N>& event, const Answer<N>& impact, const LawOfStep& step)
 {
     const N none = {}, infinite = none + __builtin_inf();
-    const N least = none + touching_gap * step.min_diameter, strength = none + yield_compression * step.min_diameter;
+    const N least = none + touching_gap * step.min_diameter, deepest = yield_overlap * event.diameter;
     const N compliance = spring_compliance<N>(event.stiffness, event.inverse_mass_sum, step);
     const N share = step.parts > 1.0 ? feedback_share<N>(compliance, event.inverse_mass_sum, step) : none + 1.0;
     const N per_way = 4.0 * upsilon / step.h * share; // of feedback: the speed that it asks for, by κ
 
-    const Answer<N> open = event.gap > least, is_deep = yields<N>(event.gap, step);
+    const Answer<N> open = event.gap > least, is_deep = yields<N>(event);
     const Answer<N> rests = !(open | is_deep | impact);
     const N before = event.compression > least ? event.compression : none;
     const N kappa = smaller<N>(-event.gap, before + step.h * step.push_out_speed);
     const Answer<N> is_spring = step.rigid ? Answer<N>{} : rests & (before > 0.0);
-    const N yielding = smaller<N>(none + step.push_out_speed, per_way * strength);
+    const N yielding = smaller<N>(none + step.push_out_speed, per_way * deepest);
     const N push = open ? -event.gap / step.h : (step.rigid ? none : (is_deep ? yielding : per_way * kappa));
 
-    const N target = impact ? -event.restitution * event.u_n : (is_spring ? push : passive_target<N>(push, event.u_n));
+    const N slack = (step.rigid ? event.inverse_mass_sum * event.load : none);
+    const N capped = smaller<N>(push, 2.0 * larger<N>(none, push) - event.u_n + slack);
+    const N target = impact ? -event.restitution * event.u_n : (is_spring ? push : capped);
     const Answer<N> keeps = step.rigid ? Answer<N>{} : is_spring | (rests & (event.u_n < least / step.h));
     return {target, step.rigid ? none : (rests ? compliance : none),
-        (is_deep & !impact) ? per_way * strength / compliance : infinite, keeps ? kappa : -infinite};
+        (is_deep & !impact) ? strengthening<N>(event) * per_way * deepest / compliance : infinite, keeps ? kappa : -infinite};
 }
 
 /// A contact that had no load beside an impact of one of its spheres is deferred: it does not close further than to a

@@ -111,6 +111,7 @@ template <int width>
     store<width>(contact.arm_scale + first, distance_then / radii);
     store<width>(contact.inverse_mass_sum + first, a[3] + b[3]);
     store<width>(touch.gap + first, gap);
+    store<width>(touch.diameter + first, 2.0 * smaller<Numbers<width>>(a[7], b[7]));
     store<width>(touch.u_n + first, u_n); // gravity is the same for both
     store<width>(touch.closes + first, closes);
     return within & ~empty;
@@ -150,7 +151,7 @@ template <int width>
     const Vector<width> carried = Vector<width>::load(touch.carried, first);
     const N w = number(contact.inverse_mass_sum), arm_scale = number(contact.arm_scale);
     const F pushed = load_flags<width>(touch.pushed + first);
-    const ContactEvent<N> event{number(touch.gap), number(touch.u_n), number(touch.closes), w, number(touch.restitution),
+    const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.u_n), number(touch.closes), w, number(touch.restitution),
         number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)), number(touch.compression), load_flags<width>(touch.struck + first)};
     const F closes = is_impact<N>(event, step.law), impact = closes & within_reach;
     const NormalLaw<N> law = normal_law<N>(event, impact, step.law);

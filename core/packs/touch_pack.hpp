@@ -22,6 +22,7 @@ struct StepConstants {
 /// normal, arm_scale, friction and inverse_mass_sum, and the rest is made.
 struct alignas(64) TouchPack {
     double gap[pack_size];
+    double diameter[pack_size];  ///< of the smaller sphere [m]
     double u_n[pack_size];       ///< of v⁽⁰⁾ [m/s]
     double closes[pack_size];    ///< when the gap does so, with v⁽¹⁾ [s]
     double restitution[pack_size];  ///< e

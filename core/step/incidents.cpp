@@ -4,6 +4,7 @@
 #include "core/base/disjoint_sets.hpp"
 #include "core/contacts/loads.hpp"
 
+#include <algorithm>
 #include <iterator>
 #include <map>
 #include <set>
@@ -59,7 +60,9 @@ std::vector<Incident> find_presses(const ContactNetwork& network, const State& s
 
     std::vector<Incident> incidents;
     for (const auto& [group, press] : presses) {
-        if (!press.is_new || press.is_known) continue;
+        const bool is_driven = std::ranges::any_of(
+            press.walls, [&](std::int32_t wall) { return !model.walls[wall].motion.empty(); });
+        if (!press.is_new || press.is_known || !is_driven) continue;
         incidents.push_back({.kind = Incident::Kind::pressed,
             .id = state.id[press.sphere],
             .position = state.position[press.sphere],
