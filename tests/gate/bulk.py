@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The runs of validation cases that the gate makes, and their rows.
 
-They are those of the cases themselves where these are short, so that both share them, and smaller ones where not: a drum
-half as long, columns of beads twice as coarse.
+They are those of the cases themselves where these are short, so that both share them, and smaller ones where not: a
+drum half as long, columns of beads twice as coarse.
 """
 import math
 from typing import NamedTuple
 
 from cases import beverloo, column_collapse, conical_hopper, drum, granular_gas, incline, packings, plane_shear, repose
-from verdicts import from_case, same, within
+from cases.column_collapse import collapse, measure, power, prefactor
+from verdicts import at_most, from_case, same, within
 
 
 class Bulk(NamedTuple):
@@ -63,26 +64,26 @@ def drum_rows(runs):
 
 SLOT, ROUND = column_collapse.COARSE_SLOT, column_collapse.ROUND
 ASPECTS = (0.5, 1, 2)
-COLUMNS = {shape.name: [column_collapse.collapse(shape, aspect) for aspect in ASPECTS] for shape in (SLOT, ROUND)}
+COLUMNS = {shape.name: [collapse(shape, aspect) for aspect in ASPECTS] for shape in (SLOT, ROUND)}
 
 
 def column_rows(runs):
-    slots, rounds = ([[column_collapse.measure(runs[run.name], shape) for run in of_seed]
+    slots, rounds = ([[measure(runs[run.name], shape) for run in of_seed]
                       for of_seed in zip(*COLUMNS[shape.name])] for shape in (SLOT, ROUND))
     scene = "column collapse, l = 16 d"
-    yield same(scene, "slot, a up to 2: exponent of the run-out", [column_collapse.power(seed, "run_out") for seed in slots])
-    yield same(scene, "slot, a up to 2: run-out / a", [column_collapse.prefactor(seed, "run_out", 1) for seed in slots])
+    yield same(scene, "slot, a up to 2: exponent of the run-out", [power(seed, "run_out") for seed in slots])
+    yield same(scene, "slot, a up to 2: run-out / a", [prefactor(seed, "run_out", 1) for seed in slots])
     yield same(scene, "round, a = 0.5 and 1: run-out / a",
-               [column_collapse.prefactor(seed[:2], "run_out", 1) for seed in rounds])
-    yield within(scene, "round, a = 2: run-out / √a", [column_collapse.prefactor(seed[2:], "run_out", 0.5) for seed in rounds],
+               [prefactor(seed[:2], "run_out", 1) for seed in rounds])
+    yield within(scene, "round, a = 2: run-out / √a", [prefactor(seed[2:], "run_out", 0.5) for seed in rounds],
                  1.28, 1.92, "± 20 %")
-    yield same(scene, "round, a = 2: height / a^(1/6)", [column_collapse.prefactor(seed[2:], "height", 1 / 6) for seed in rounds])
+    yield same(scene, "round, a = 2: height / a^(1/6)", [prefactor(seed[2:], "height", 1 / 6) for seed in rounds])
     yield same(scene, "round, a = 2: duration / √(h/g)", [seed[2].duration for seed in rounds])
     for name, found in (("slot", slots), ("round", rounds)):
-        yield within(scene, f"{name}, a = 0.5: height of the middle / before", [seed[0].kept for seed in found], 0.9, 1.05,
-                     "0.9 to 1.05")
-        yield within(scene, f"{name}, a = 0.5 and 1: kinetic energy after 6 √(h/g) / (M g h)",
-                     [max(one.rest for one in seed[:2]) for seed in found], 0, 1e-4, "up to 1e-4")
+        yield within(scene, f"{name}, a = 0.5: height of the middle / before", [seed[0].kept for seed in found],
+                     0.9, 1.05, "0.9 to 1.05")
+        yield at_most(scene, f"{name}, a = 0.5 and 1: kinetic energy after 6 √(h/g) / (M g h)",
+                      [max(one.rest for one in seed[:2]) for seed in found], 1.5, 3, 1e-4)
 
 
 SLOPES = (15, 24)  # °
@@ -92,14 +93,17 @@ def incline_rows(runs):
     still, flowing = SLOPES
     yield within("incline", f"{still}°: mean speed at the end / √(g d)",
                  [incline.numpy.linalg.norm(runs[run.name].frame().velocities, axis=1).mean()
-                  / math.sqrt(incline.GRAVITY * incline.DIAMETER) for run in incline.tilted(still)], 0, 1e-3, "up to 0.001")
+                  / math.sqrt(incline.GRAVITY * incline.DIAMETER) for run in incline.tilted(still)],
+                 0, 1e-3, "up to 0.001")
     names = [run.name for run in incline.tilted(flowing)]
     found = [incline.flow(runs[name], flowing) for name in names]
     yield within("incline", f"{flowing}°: acceleration / (g sin θ)",
-                 [incline.acceleration(runs[name], flowing, incline.TIMES[flowing]) for name in names], -0.02, 0.02, "± 0.02")
+                 [incline.acceleration(runs[name], flowing, incline.TIMES[flowing]) for name in names],
+                 -0.02, 0.02, "± 0.02")
     yield within("incline", f"{flowing}°: R² of Bagnold's profile", [one.r2 for one in found], 0.98, 1, "above 0.98")
     yield within("incline", f"{flowing}°: tan θ less μ(I)",
-                 [math.tan(math.radians(flowing)) - incline.mu_of(one.inertial_number) for one in found], -0.04, 0.04, "± 0.04")
+                 [math.tan(math.radians(flowing)) - incline.mu_of(one.inertial_number) for one in found],
+                 -0.04, 0.04, "± 0.04")
     yield same("incline", f"{flowing}°: mean velocity [m/s]", [one.mean_velocity for one in found])
     yield same("incline", f"{flowing}°: solid fraction of the core", [one.fraction for one in found])
 
@@ -131,8 +135,8 @@ def shear_rows(runs):
                                             ("solid fraction", "fraction", plane_shear.FRACTIONS, 0.015)):
         value = references[SHEARED]
         yield within("plane shear, friction 0.5", f"I → 0: {what}",
-                     [plane_shear.limit([one.inertial_number for one in seed], [getattr(one, field) for one in seed], SHEARED)
-                      for seed in seeds], value - margin, value + margin, f"{value:g} ± {margin:g}")
+                     [plane_shear.limit([one.inertial_number for one in seed], [getattr(one, field) for one in seed],
+                                        SHEARED) for seed in seeds], value - margin, value + margin, f"{value:g} ± {margin:g}")
     yield within("plane shear, friction 0.5", "I = 0.1: μ less μ(I)",
                  [seed[2].mu - incline.mu_of(seed[2].inertial_number) for seed in seeds], -0.04, 0.04, "± 0.04")
     for k, number in enumerate(NUMBERS):
@@ -142,7 +146,8 @@ def shear_rows(runs):
 BULKS = [Bulk("conical_hopper", [*FLAT, *HOPPER], hopper_rows),
          Bulk("repose", [run for heap in HEAPS for run in heap], repose_rows),
          Bulk("drum", DRUMS, drum_rows),
-         Bulk("column_collapse", [run for columns in COLUMNS.values() for column in columns for run in column], column_rows),
+         Bulk("column_collapse", [run for columns in COLUMNS.values() for column in columns for run in column],
+              column_rows),
          Bulk("incline", [run for angle in SLOPES for run in incline.tilted(angle)], incline_rows),
          Bulk("packings", [run for _, simulations in PACKED.values() for run in simulations], packing_rows),
          Bulk("granular_gas", granular_gas.RUNS, gas_rows),

@@ -9,7 +9,7 @@ HEAD = """# The gate
 
 What is run before a change of the program's results lands: hard cases, short versions of the validation cases, flows
 and beds at rest. `tests/run gate` runs it and writes this page; [tests/README.md](../README.md#the-gate) says how
-verdicts are made.
+verdicts are made. Wall time is longer where other programs ran beside it.
 
 | | commit | processor | wall | CPU |
 | --- | --- | --- | --- | --- |

@@ -21,7 +21,8 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / folder) for folder in ("tests/gate", "tests/hard", "tests/validation", "tests/support", "postprocess")]
+sys.path[:0] = [str(ROOT / folder) for folder in (
+    "tests/gate", "tests/hard", "tests/validation", "tests/support", "postprocess")]
 from jobs import RESULTS, all_jobs  # noqa: E402  found by the line above
 from making import RunFailed  # noqa: E402
 from gate_page import judged, page  # noqa: E402
@@ -60,8 +61,10 @@ class Clock:
         return earlier + (time.monotonic() - self.began) / 60
 
     def keep(self):
+        """Adds what has gone by since it was made, or kept the last time."""
+        minutes, self.began = self.minutes(), time.monotonic()
         RESULTS.mkdir(parents=True, exist_ok=True)
-        self.path.write_text(json.dumps({"program": self.program, "minutes": self.minutes()}))
+        self.path.write_text(json.dumps({"program": self.program, "minutes": minutes}))
 
 
 def main():
@@ -69,6 +72,7 @@ def main():
     parser.add_argument("--before", action="store_true", help="keep what is found as what later runs are held against")
     parser.add_argument("--list", action="store_true", help="names of jobs and their seconds")
     parser.add_argument("--build", type=Path, default=ROOT / "build", help="the build whose programs are run")
+    parser.add_argument("--commit", help="that this build is of, where the folder that it was made from is at another by now")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
     build = arguments.build.resolve()
@@ -86,7 +90,7 @@ def main():
     finally:
         clock.keep()
     rows, missing = all_rows(build, found)
-    now = {"commit": commit(source_of(build)), "processor": processor(), "date": datetime.date.today().isoformat(),
+    now = {"commit": arguments.commit or commit(source_of(build)), "processor": processor(), "date": datetime.date.today().isoformat(),
            "minutes": clock.minutes(), "seconds": sum(took.values()), "missing": missing,
            "rows": [row._asdict() for row in rows]}
     before = now if arguments.before else store.get("before")

@@ -4,8 +4,6 @@ import math
 import statistics
 from typing import NamedTuple
 
-FAILS = ("fails", "fails, as before", "fails, as before; moved")
-
 
 class Row(NamedTuple):
     """A quantity of a scene. What it is held against is one of these:
