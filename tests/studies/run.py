@@ -9,7 +9,7 @@ from the same program is not run again, and a study that was broken off goes on 
 into tests/studies/results, with the commit that they are of in results/measured.json, and writes the settings of
 accuracy from them.
 
-Exit codes: 0 done, 1 a study failed, 2 the call is wrong.
+Exit codes: 0 done, 1 a study failed, 2 the call is wrong, 130 broken off.
 """
 import argparse
 import datetime
@@ -99,4 +99,7 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit(130)
