@@ -15,80 +15,26 @@ Exit codes: 0 done, whatever the verdicts; 1 a run failed; 2 the call is wrong.
 import argparse
 import concurrent.futures
 import datetime
-import hashlib
 import importlib
 import json
 import os
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import matplotlib
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(Path(__file__).parent), str(ROOT / "postprocess")]
-from case import scene_file  # noqa: E402  found by the line above
-from cases import CASES  # noqa: E402
-from deck import DeckRun, program_of, run_deck  # noqa: E402
+sys.path[:0] = [str(Path(__file__).parent), str(ROOT / "postprocess"), str(ROOT / "tests/support")]
+from cases import CASES  # noqa: E402  found by the line above
+from deck import program_of  # noqa: E402
+from making import RunFailed, make  # noqa: E402
 from page import VERDICTS, write_page  # noqa: E402
-from read_run import Run  # noqa: E402
+from source import commit  # noqa: E402
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  after the choice of a backend without a screen
 
 STORE = ROOT / "tests/results/validation.json"
-
-
-class RunFailed(Exception):
-    """A run that did not come to its end; the text is one sentence."""
-
-
-def checksum_of(talus, run):
-    """Of the program and of all that a run is made from."""
-    digest = hashlib.sha256(talus.read_bytes())
-    path = Path(scene_file(run.scene))
-    digest.update((path if path.suffix else ROOT / f"scenarios/{run.scene}.toml").read_bytes())
-    digest.update(repr(run[1:]).encode())
-    return digest.hexdigest()
-
-
-def call(talus, verb, run, folder, *others):
-    """Raises RunFailed."""
-    settings = [word for key, value in run.settings.items() for word in ("--set", f"{key}={value}")]
-    command = [talus, verb, scene_file(run.scene), "--seed", run.seed, *settings, *others, "--force", "--quiet", "-o",
-               folder]
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-    if done.returncode:
-        raise RunFailed(f"{' '.join(map(str, command))} ended with {done.returncode}: {done.stderr[-500:]}")
-
-
-def make(talus, run):
-    """Makes a run, if it is not there, and reads it.
-
-    Raises RunFailed.
-    """
-    folder = ROOT / "build/validation" / run.name
-    mark, checksum = folder.with_name(f"{run.name}.made_of"), checksum_of(talus, run)
-    if not (mark.is_file() and mark.read_text() == checksum):
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        if run.program:
-            if run.scene.endswith(f".{run.program}"):
-                shutil.rmtree(folder, ignore_errors=True)
-                folder.mkdir()
-                shutil.copy(scene_file(run.scene), folder / f"in.{run.program}")
-                variables = dict(run.settings, seed=run.seed)
-            else:
-                call(talus, "export", run, folder, "--format", run.program)
-                variables = {"modulus": run.modulus} if run.modulus else {}
-            code = run_deck(run.program, folder, variables)
-            if code:
-                raise RunFailed(f"{run.program} ended with {code} in {folder}, see said.txt there.")
-        else:
-            call(talus, "run", run, folder, "--threads", 1)
-        mark.write_text(checksum)
-        print(f"{run.name} made", flush=True)
-    return DeckRun(folder) if run.program else Run(folder)
 
 
 def judge(name, case, runs):
@@ -104,11 +50,9 @@ def judge(name, case, runs):
     for row in rows:
         print(f"{name}: {row['what']}: {row['mean']:.4g} ± {row['standard_error']:.2g}, "
               f"[{row['low']:.4g}, {row['high']:.4g}]: {VERDICTS[row['within']]}", flush=True)
-    commit = subprocess.run(["git", "log", "-1", "--format=%h", "--", "core", "scenarios", "io", "app", ":!*.md"],
-                            cwd=ROOT, capture_output=True, text=True).stdout.strip()
     summaries = {run: runs[run].summary() for run in runs}
     return {"rows": rows, "seconds": {run: summary["timing"]["cpu"] for run, summary in summaries.items()},
-            "spheres": max(summary["ledger"]["inserted"] for summary in summaries.values()), "commit": commit,
+            "spheres": max(summary["ledger"]["inserted"] for summary in summaries.values()), "commit": commit(),
             "date": datetime.date.today().isoformat()}
 
 
