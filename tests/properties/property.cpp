@@ -21,7 +21,6 @@ namespace
 {
 
 constexpr std::uint64_t noted_every = 500;  ///< worlds
-constexpr std::size_t most_told = 5;        ///< worlds in full, of those that fail
 constexpr std::size_t most_kept = 200;      ///< seeds
 constexpr double most_unsolved = 0.01;      ///< share
 
@@ -157,6 +156,7 @@ void hold(const std::string& name, const Check& check)
     const std::uint64_t first = std::stoull(environment("TALUS_PROPERTIES_SEED", "1"));
     const Notes notes(name, first);
     Tally tally = notes.read();
+    const std::size_t most_told = std::stoull(environment("TALUS_PROPERTIES_TELL", "3"));
     std::size_t told = 0;
     while (tally.looked_at < count) {
         const std::uint64_t seed = first + tally.looked_at;

@@ -26,7 +26,7 @@ struct Verdict {
 using Check = std::function<Verdict(std::uint64_t seed)>;
 
 /// Looks at the worlds of TALUS_PROPERTIES_COUNT seeds (1000) from TALUS_PROPERTIES_SEED (1) on, tells how many there
-/// were of each outcome, and fails where one fails, where more than 1 % of those that have room are unsolved, or one of
+/// were of each outcome, prints TALUS_PROPERTIES_TELL (3) of those that fail, and fails where one fails, where more than 1 % of those that have room are unsolved, or one of
 /// a kind that is always solved.
 ///
 /// With TALUS_PROPERTIES_PROGRESS, a folder, it notes there how far it has come, and goes on from there when it is called

@@ -169,6 +169,7 @@ private:
             return draw_.chance(0.4) ? axis : Vec3((axis + draw_.uniform(-0.5, 0.5) * z).normalized());
         };
         middle_ = d * z;
+        if (wish_.press) return close_in();
         switch (draw_.one_of({0, 1, 1, 1, 2, 2, 3, 3, 4, 5, 5, 6, 6, 7, 8})) {
         case 0: middle_.setZero(); return;
         case 1:
@@ -225,6 +226,24 @@ private:
             middle_ = d * (x + y + z);
             has_up_ = true;
         }
+        }
+    }
+
+    /// A floor, and what comes down on it: a plane, or a plate beside which there is room; perhaps in a tube.
+    void close_in()
+    {
+        const double height = d_max_ * draw_.uniform(1, 2.5), speed = d_max_ / h_ * draw_.log_uniform(1e-3, 5e-2);
+        const Vec3 z = Vec3::UnitZ(), down = draw_.chance(0.7) ? Vec3(-z) : Vec3(-tilted(z));
+        middle_ = 0.5 * height * z;
+        tell("wall 0: plane z = 0; wall 1: at z = ", height / d_min_, " d, normal ", told(down), ", comes down with ",
+            speed, " m/s");
+        world_.add_plane(Vec3::Zero(), z);
+        const Shape above = draw_.chance(0.6) ? Shape(Plane{height * z, down}) : Shape(Disk{height * z, down, d_max_, 0.0});
+        world_.add_wall(above, {Translation{{0.0, d_max_ * draw_.uniform(0.5, 2) / speed}, -speed * z}});
+        if (draw_.chance(0.3)) {
+            tell("wall 2: a tube round the z axis of radius ", 1.5 * d_max_ / d_min_, " d");
+            world_.add_wall(Cylinder{Vec3(0, 0, -d_max_), z, 1.5 * d_max_, 6 * d_max_});
+            spread_ = 0.7 * d_max_;
         }
     }
 

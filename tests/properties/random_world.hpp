@@ -17,6 +17,7 @@ struct Wish {
     std::optional<bool> push_out = {};
     bool moving_walls = true;
     bool pistons = true;
+    bool press = false; ///< two walls close on the spheres
 };
 
 /// A small world that a seed stands for: a few spheres, some of which touch or are about to, with or without walls, and

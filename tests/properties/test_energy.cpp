@@ -3,6 +3,7 @@
 #include "tests/properties/random_world.hpp"
 #include "tests/properties/room.hpp"
 #include "tests/properties/solved.hpp"
+#include "tests/support/contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -108,6 +109,105 @@ Verdict energy_of_a_step(std::uint64_t seed, const Demand& demand)
 
 constexpr double friction_may_add = 0.0; ///< METHOD, limits
 
+/// The potential energy that positions gained beyond what velocities brought them [J].
+double lifted(const World& before, const World& after, double h)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < after.state.count(); ++i) {
+        const Vec3 way = after.state.position[i] - before.position(after.state.id[i]);
+        sum -= after.state.mass(i) * after.model.gravity.dot(way - h * after.state.motion[i].velocity);
+    }
+    for (std::size_t k = 0; k < after.model.pistons.size(); ++k) {
+        const Piston& piston = after.model.pistons[k];
+        const Vec3 force = piston.mass * after.model.gravity + piston.load_at(before.state.time) * piston.guide;
+        const Vec3 way = after.state.pistons[k].pose(piston.center) - before.state.pistons[k].pose(piston.center);
+        sum -= force.dot(way - h * after.state.pistons[k].velocity);
+    }
+    return sum;
+}
+
+/// At most what push-out can put into the springs in a step: its way against their force, k κ p h each.
+double most_pushed_out(const World& world, double h)
+{
+    constexpr double upsilon = 1.0 / 9.0; // METHOD, k = 4 Υ / (Σ h²)
+    const double whole = world.model.time_step, way = h * world.model.solver.push_out_speed;
+    double sum = 0.0;
+    for_each_contact(world.network, [&](const TileContacts& contacts, std::size_t k, bool) {
+        const double kappa = contacts.geometry(k).compression, compliance = contacts.terms(k).compliance;
+        if (compliance > 0.0) sum += 4.0 * upsilon / (compliance * whole * whole) * kappa * std::min(way, kappa);
+    });
+    return sum;
+}
+
+/// What a step tells of springs and positions is what the bodies say: the columns of the books.
+Verdict books_are_right(std::uint64_t seed)
+{
+    RandomWorld own = draw_world(seed);
+    World& world = own.world;
+    if (!warm_up(own)) return {Verdict::Outcome::no_room};
+    const int parts = own.parts.back();
+    const double h = world.model.time_step / parts;
+    const double left = world.report.outcome.stored_energy; // by the part before
+    const World before = world;
+    const Books books = make_counted_part(world, parts);
+    const ContactSurvey& springs = books.report.contacts;
+    std::ostringstream why;
+    constexpr double digits_of_kappa = 1e-6;
+    if (springs.stored_energy - springs.push_out_energy > left + digits_of_kappa * std::max(left, springs.stored_energy))
+        why << "springs hold " << springs.stored_energy << " J when the step begins, of which pushing out has put in "
+            << springs.push_out_energy << " J, but the step before left " << left << " J\n";
+    const double most = most_pushed_out(world, h);
+    if (springs.push_out_energy > most * (1.0 + digits_of_kappa) + 1e-300)
+        why << "pushing out puts in " << springs.push_out_energy << " J, its bound is " << most << " J\n";
+    if (springs.push_out_energy < 0.0 || springs.stored_energy < 0.0 || books.report.outcome.stored_energy < 0.0)
+        why << "a spring holds less than nothing\n";
+    const double rose = lifted(before, world, h);
+    if (std::abs(rose - books.report.lifted_energy) > 1e-8 * books.scale)
+        why << "positions were lifted by " << rose << " J, told are " << books.report.lifted_energy << " J, the scale is "
+            << books.scale << " J\n";
+    if (why.str().empty()) return {};
+    own.world = before;
+    return {Verdict::Outcome::fails, why.str() + picture(own)};
+}
+
+/// Walls that close until there is no room, and on: all stays finite, no energy comes but what they put in, and the run
+/// is told.
+Verdict pressed(std::uint64_t seed)
+{
+    RandomWorld own = draw_world(seed, {.push_out = false, .press = true});
+    World& world = own.world;
+    world.model.solver.tolerance = 1e-4;
+    world.model.solver.max_sweeps = 300;
+    const double h = world.model.time_step;
+    bool told = false, room = true;
+    int steps_without = 0;
+    double deepest = 0.0;
+    for (int step = 0; step < 400 && steps_without < 250; ++step) {
+        room = has_room(world, h);
+        steps_without += !room;
+        const World before = world;
+        const Books books = make_counted_part(world, 1);
+        const auto fail = [&](const std::string& why) -> Verdict {
+            own.world = before;
+            return {Verdict::Outcome::fails, "step " + std::to_string(step) + ": " + why + '\n' + picture(own)};
+        };
+        if (!is_finite(world)) return fail("not a number");
+        const double walls = std::abs(books.report.outcome.wall_work);
+        if (books.rise > 1e-2 * walls + 1e-3 * books.scale && own.is_frictionless())
+            return fail("energy rises by " + std::to_string(books.rise / books.scale) + " of the largest");
+        for (const Incident& incident : books.report.bodies.incidents)
+            told = told || incident.kind == Incident::Kind::pressed;
+        deepest = std::max(deepest, books.report.contacts.worst_overlap / world.model.min_diameter);
+    }
+    if (steps_without == 0) return {Verdict::Outcome::left_out};
+    if (!told && steps_without > 120 && deepest > 0.3) {
+        std::ostringstream why;
+        why << "nothing was told in " << steps_without << " steps without room, overlaps up to " << deepest << " d\n";
+        return {Verdict::Outcome::fails, why.str() + picture(own)};
+    }
+    return {Verdict::Outcome::no_room};
+}
+
 } // namespace
 
 TEST_CASE("P1 without friction and push-out no step adds energy", "[energy]")
@@ -115,6 +215,16 @@ TEST_CASE("P1 without friction and push-out no step adds energy", "[energy]")
     hold("energy", [](std::uint64_t seed) {
         return energy_of_a_step(seed, {{.friction = false, .push_out = false}});
     });
+}
+
+TEST_CASE("P1 the books say what springs hold, what pushing out puts in, and what positions are lifted by", "[energy]")
+{
+    hold("books", books_are_right);
+}
+
+TEST_CASE("P1 where walls leave no room all stays finite, energy is what they put in, and it is told", "[press]")
+{
+    hold("press", pressed);
 }
 
 TEST_CASE("P1 with push-out no step adds energy but what it says", "[energy]")
