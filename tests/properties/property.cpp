@@ -163,8 +163,8 @@ void hold(const std::string& name, const Check& check)
         const Verdict verdict = checked(check, seed);
         tally.add(seed, verdict);
         if (verdict.outcome == Verdict::Outcome::fails && told++ < most_told) std::cout << verdict.why << std::endl;
-        if (verdict.outcome == Verdict::Outcome::unsolved && verdict.must_solve && told++ < most_told)
-            std::cout << "not solved: " << verdict.why << std::endl;
+        if (verdict.outcome == Verdict::Outcome::unsolved && told++ < most_told)
+            std::cout << verdict.why << std::endl;
         if (tally.looked_at % noted_every == 0) notes.write(tally);
     }
     notes.write(tally);

@@ -15,8 +15,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// How many times as fast as the walls bodies may have to be, to get out of their way: more is no room.
-constexpr double fastest_way_out = 30.0;
+constexpr double fastest_way_out = 30.0; ///< than the walls, that many times as fast: more is no room
+constexpr double parting = 1e-4; ///< with what all must be able to part [smallest diameters a step] …
+constexpr double fastest_parting = 300.0; ///< … and how many times as fast spheres may be for that
+
+/// Whether all walls near the spheres leave one direction open, so that spreading them on that side parts them all.
+bool is_open(const std::vector<Touch>& all)
+{
+    Vec3 sum = Vec3::Zero();
+    for (const Touch& touch : all)
+        if (touch.with_wall) sum += touch.normal;
+    return std::ranges::all_of(all, [&](const Touch& touch) {
+        return !touch.with_wall || (touch.wall_velocity.isZero(0.0) && touch.normal.dot(sum) > 0.1 * sum.norm());
+    });
+}
 
 } // namespace
 
@@ -92,14 +104,15 @@ VectorXd nonnegative_least_squares(const MatrixXd& A, const VectorXd& b)
 bool has_room(const World& world, double h)
 {
     const Model& model = world.model;
-    if (!model.physics.moving_walls || world.state.count() == 0) return true;
+    if (world.state.count() == 0) return true;
     for (const Vec3& x : world.state.position)
         if (!x.allFinite()) return false;
-    double fastest = 0.0;
     const auto all = touches(world, h, model.min_diameter);
+    if (is_open(all)) return true;
+    double fastest = 0.0;
     for (const Touch& touch : all) fastest = std::max(fastest, touch.wall_velocity.norm());
-    if (fastest == 0.0) return true;
-    // The unknowns: velocities of spheres, and of pistons along their guides, in units of the fastest wall.
+    // The unknowns: velocities of spheres, and of pistons along their guides, in smallest diameters a step.
+    const double unit = model.min_diameter / h;
     const auto spheres = static_cast<Index>(world.state.count());
     const Index unknowns = 3 * spheres + static_cast<Index>(model.pistons.size());
     MatrixXd G = MatrixXd::Zero(unknowns, static_cast<Index>(all.size()));
@@ -108,13 +121,13 @@ bool has_room(const World& world, double h)
         const Touch& touch = all[k];
         const auto row = static_cast<Index>(k);
         G.block<3, 1>(3 * static_cast<Index>(touch.a), row) = touch.normal;
-        least[row] = -std::max(0.0, touch.gap) / (h * fastest);
+        least[row] = parting - std::max(0.0, touch.gap) / model.min_diameter;
         if (!touch.with_wall) {
             G.block<3, 1>(3 * static_cast<Index>(touch.b), row) = -touch.normal;
         } else if (const auto piston = model.walls[touch.b].piston; piston >= 0) {
             G(3 * spheres + piston, row) = -touch.normal.dot(model.pistons[static_cast<std::size_t>(piston)].guide);
         } else {
-            least[row] += touch.normal.dot(touch.wall_velocity) / fastest;
+            least[row] += touch.normal.dot(touch.wall_velocity) / unit;
         }
     }
     // The least v with Gᵀ v ≥ least: v = −r / r_last of the residual r of the least squares below.
@@ -123,7 +136,8 @@ bool has_room(const World& world, double h)
     VectorXd f = VectorXd::Zero(unknowns + 1);
     f[unknowns] = 1.0;
     const VectorXd r = E * nonnegative_least_squares(E, f) - f;
-    return -r[unknowns] > 1e-9 && r.head(unknowns).norm() < fastest_way_out * -r[unknowns];
+    const double fastest_allowed = fastest_way_out * fastest / unit + fastest_parting * parting;
+    return -r[unknowns] > 1e-12 && r.head(unknowns).norm() < fastest_allowed * -r[unknowns];
 }
 
 } // namespace talus::test

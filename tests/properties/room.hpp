@@ -26,8 +26,10 @@ std::vector<Touch> touches(const World& world, double h, double within);
 /// The shortest x ≥ 0 of |A x − b|: Lawson & Hanson 1974, Solving Least Squares Problems, chapter 23.
 Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
-/// Whether some velocities of spheres and pistons keep all that touches from closing, none of them more than a few times
-/// as fast as the walls that move as told: the least ones that do (ibid.).
+/// Whether some velocities of spheres and pistons keep all that touches from closing, and even part it with a
+/// ten-thousandth of a diameter in a step, none of them many times as fast as the walls that move as told: the least ones
+/// that do (ibid.). A sphere that fits exactly between two walls that stand still has none: rigid impulses may be
+/// anything there.
 bool has_room(const World& world, double h);
 
 } // namespace talus::test

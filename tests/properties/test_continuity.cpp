@@ -79,8 +79,9 @@ Verdict perturbed_a_little(std::uint64_t seed, const Wish& wish)
     const World other_before = other;
     world.report = make_part(world, at.parts);
     other.report = make_part(other, at.parts);
-    if (!is_solved(world, world.report) || !is_solved(other, other.report))
-        return {Verdict::Outcome::unsolved, "world " + std::to_string(seed), 0.0, must_be_solved(at.own)};
+    for (const World* one : {&world, &other})
+        if (!is_solved(*one, one->report))
+            return {Verdict::Outcome::unsolved, told_unsolved(at.own, one->report), 0.0, must_be_solved(at.own)};
     const double moved = difference(world, other) / largest;
     if (moved <= moved_at_most * loosened(at.own, world.report)) return {Verdict::Outcome::holds, {}, moved};
     std::ostringstream why;
@@ -129,7 +130,7 @@ Verdict seen_otherwise(std::uint64_t seed, const Wish& wish)
     const double largest = largest_velocity(world);
     world.report = make_part(world, at.parts);
     if (!is_solved(world, world.report))
-        return {Verdict::Outcome::unsolved, "world " + std::to_string(seed), 0.0, must_be_solved(at.own)};
+        return {Verdict::Outcome::unsolved, told_unsolved(at.own, world.report), 0.0, must_be_solved(at.own)};
     Draw draw(~seed);
     Verdict verdict;
     std::ostringstream why;
@@ -141,7 +142,7 @@ Verdict seen_otherwise(std::uint64_t seed, const Wish& wish)
         const World other_before = other;
         other.report = make_part(other, at.parts);
         if (!is_solved(other, other.report)) {
-            verdict.outcome = std::max(verdict.outcome, Verdict::Outcome::unsolved);
+            verdict = {Verdict::Outcome::unsolved, told_unsolved(at.own, other.report), 0.0, must_be_solved(at.own)};
             continue;
         }
         const double apart = difference(world, other, view.transform) / largest;
@@ -151,11 +152,7 @@ Verdict seen_otherwise(std::uint64_t seed, const Wish& wish)
             << " and " << other.report.solve.sweeps << '\n';
         tables += std::string("  contacts when it is ") + view.name + ":\n" + contact_table(other_before, at.parts);
     }
-    if (why.str().empty()) {
-        if (verdict.outcome == Verdict::Outcome::unsolved)
-            return {Verdict::Outcome::unsolved, "world " + std::to_string(seed), 0.0, must_be_solved(at.own)};
-        return verdict;
-    }
+    if (why.str().empty()) return verdict;
     at.own.world = before;
     return {Verdict::Outcome::fails, why.str() + picture(at.own) + tables, verdict.measure};
 }

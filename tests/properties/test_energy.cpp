@@ -83,9 +83,7 @@ Verdict energy_of_a_step(std::uint64_t seed, const Demand& demand)
         if (!is_finite(world)) return {Verdict::Outcome::fails, "not a number\n" + picture(own)};
         const double sweeps = books.report.solve.sweeps;
         if (room && !is_solved(world, books.report)) {
-            std::ostringstream why;
-            why << "world " << seed << ", residual " << books.report.solve.residual << " after " << sweeps << " sweeps";
-            return {Verdict::Outcome::unsolved, why.str(), 0.0, verdict.must_solve};
+            return {Verdict::Outcome::unsolved, told_unsolved(own, books.report), 0.0, verdict.must_solve};
         }
         // In worlds without room impulses grow with the sweeps: what comes of it is bounded by what walls put in.
         const double allowed = !room                         ? 1e-6

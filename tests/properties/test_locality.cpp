@@ -206,8 +206,9 @@ Verdict unmoved_by_what_is_far(std::uint64_t seed)
     const World with_before = with.world;
     own.world.report = make_part(own.world, 1);
     with.world.report = make_part(with.world, 1);
-    if (!is_solved(own.world, own.world.report) || !is_solved(with.world, with.world.report))
-        return {Verdict::Outcome::unsolved, "world " + std::to_string(seed), 0.0, must_be_solved(own)};
+    for (const World* world : {&own.world, &with.world})
+        if (!is_solved(*world, world->report))
+            return {Verdict::Outcome::unsolved, told_unsolved(own, world->report), 0.0, must_be_solved(own)};
     const double differs = difference(own.world, with.world) / largest;
     const double allowed = std::max(1e-9, 1e-11 * own.world.report.solve.sweeps);
     if (differs <= allowed) return {Verdict::Outcome::holds, {}, differs};
