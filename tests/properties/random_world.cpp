@@ -438,7 +438,7 @@ RandomWorld draw_world(std::uint64_t seed, const Wish& wish)
 
 StepLength part_of_step(const Model& model, int parts)
 {
-    return {model.time_step, parts, 0.01 * model.min_diameter};
+    return {model.time_step, parts};
 }
 
 StepReport make_part(World& world, int parts)

@@ -180,8 +180,7 @@ private:
         const auto search = [&] {
             network = {};
             network.carried.impulse_step = from_.network.carried.impulse_step * t_.time;
-            network.carried.step_before = from_.network.carried.step_before * t_.time;
-            const auto walls = place_walls(model, to_.state, h, network.carried.step_before);
+            const auto walls = place_walls(model, to_.state, h);
             update_candidates(network.list, network.carried, to_.state, model, h, walls);
         };
         search();
