@@ -5,6 +5,9 @@
 #include "tests/properties/solved.hpp"
 #include "tests/support/contacts.hpp"
 
+#include "core/contacts/assembly.hpp"
+#include "core/packs/law.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -42,6 +45,7 @@ Bodies bodies_of(const World& world)
 /// What one step, or sub-step, did to the energy.
 struct Books {
     double rise = 0.0;  ///< of kinetic, potential and spring energy, less the work of walls [J]
+    double change = 0.0; ///< of kinetic and potential energy alone [J]
     double scale = 0.0; ///< the largest of these energies [J]
     StepReport report;
 };
@@ -55,13 +59,38 @@ Books make_counted_part(World& world, int parts)
     const Bodies after = bodies_of(world);
     const double springs_before = books.report.contacts.stored_energy, springs_after = books.report.outcome.stored_energy;
     const double fallen = 0.5 * h * (before.power + after.power), walls = books.report.outcome.wall_work;
-    books.rise = after.kinetic - before.kinetic - fallen + springs_after - springs_before - walls;
+    books.change = after.kinetic - before.kinetic - fallen;
+    books.rise = books.change + springs_after - springs_before - walls;
     double free_fall = 0.0;
     for (std::size_t i = 0; i < world.state.count(); ++i)
         free_fall += 0.5 * world.state.mass(i) * h * h * world.model.gravity.squaredNorm();
     books.scale =
         std::max({before.kinetic, after.kinetic, springs_before, springs_after, std::abs(walls), free_fall, 1e-300});
     return books;
+}
+
+/// What pushing out can put in beside the springs: the impulses of rows that push without one, times their speed.
+double pushed_by_rows(const World& world, double h)
+{
+    double sum = 0.0;
+    for_each_contact(world.network, [&](const TileContacts& contacts, std::size_t k, bool) {
+        const ContactGeometry own = contacts.geometry(k);
+        if (own.kind != ContactKind::resting && own.kind != ContactKind::yielding) return;
+        const double speed =
+            std::min(world.model.solver.push_out_speed, 4.0 * upsilon * std::max(0.0, -own.gap) / h);
+        sum += std::max(0.0, contacts.impulse(k).dot(contacts.normal(k))) * speed;
+    });
+    return sum;
+}
+
+std::string in_words(const Books& books)
+{
+    std::ostringstream text;
+    text << "energy rises by " << books.rise / books.scale << " of the largest, " << books.scale << " J; " << books.change
+         << " in velocities, springs from " << books.report.contacts.stored_energy << " to "
+         << books.report.outcome.stored_energy << ", work of walls " << books.report.outcome.wall_work << "; residual "
+         << books.report.solve.residual << " after " << books.report.solve.sweeps << " sweeps";
+    return text.str();
 }
 
 struct Demand {
@@ -91,10 +120,11 @@ Verdict energy_of_a_step(std::uint64_t seed, const Demand& demand)
                                                              : std::max(1e-10, 1e-12 * sweeps);
         const double rise = books.rise / books.scale;
         verdict.measure = std::max(verdict.measure, rise);
-        if (rise > demand.may_rise + allowed) {
+        const double pushed =
+            world.model.solver.push_out_speed > 0.0 ? pushed_by_rows(world, world.model.time_step / parts) / books.scale : 0.0;
+        if (rise > demand.may_rise + pushed + allowed) {
             std::ostringstream why;
-            why << "energy rises by " << rise << " of the largest (" << books.rise << " J of " << books.scale
-                << " J), allowed is " << demand.may_rise + allowed << ", sweeps " << sweeps << ", room " << room << '\n';
+            why << in_words(books) << "; allowed is " << demand.may_rise + pushed + allowed << ", room " << room << '\n';
             RandomWorld shown = own;
             shown.world = before;
             return {Verdict::Outcome::fails, why.str() + picture(shown), rise};
@@ -124,15 +154,21 @@ double lifted(const World& before, const World& after, double h)
     return sum;
 }
 
-/// At most what push-out can put into the springs in a step: its way against their force, k κ p h each.
-double most_pushed_out(const World& world, double h)
+/// At most what push-out can put into the springs in a step, METHOD (energy): their force, k κ and that of their
+/// damping, times its way.
+double most_pushed_out(const World& world, const LawOfStep& law)
 {
-    constexpr double upsilon = 1.0 / 9.0; // METHOD, k = 4 Υ / (Σ h²)
-    const double whole = world.model.time_step, way = h * world.model.solver.push_out_speed;
+    const double whole = law.parts * law.h, way = law.h * world.model.solver.push_out_speed;
     double sum = 0.0;
     for_each_contact(world.network, [&](const TileContacts& contacts, std::size_t k, bool) {
-        const double kappa = contacts.geometry(k).compression, compliance = contacts.terms(k).compliance;
-        if (compliance > 0.0) sum += 4.0 * upsilon / (compliance * whole * whole) * kappa * std::min(way, kappa);
+        const double depth = std::max(0.0, -contacts.geometry(k).gap);
+        const double stiffness = world.model.materials.laws[0].stiffness; // in these worlds all are equally stiff
+        LawOfStep of_whole = law;
+        of_whole.h = whole;
+        const double W = contacts.terms(k).inverse_mass_sum;
+        const double k_n = 4.0 * upsilon / (spring_compliance<double>(stiffness, W, of_whole) * whole * whole);
+        const double speed = 2.0 * largest_velocity(world); // before the step and after it
+        sum += k_n * std::min(way, depth) * (depth + law.h * speed);
     });
     return sum;
 }
@@ -142,6 +178,7 @@ Verdict books_are_right(std::uint64_t seed)
 {
     RandomWorld own = draw_world(seed);
     World& world = own.world;
+    own.warm_up_tolerance = 1e-12; // what springs are left with stands in the impulses, and is only as right as they are
     if (!warm_up(own)) return {Verdict::Outcome::no_room};
     const int parts = own.parts.back();
     const double h = world.model.time_step / parts;
@@ -154,7 +191,7 @@ Verdict books_are_right(std::uint64_t seed)
     if (springs.stored_energy - springs.push_out_energy > left + digits_of_kappa * std::max(left, springs.stored_energy))
         why << "springs hold " << springs.stored_energy << " J when the step begins, of which pushing out has put in "
             << springs.push_out_energy << " J, but the step before left " << left << " J\n";
-    const double most = most_pushed_out(world, h);
+    const double most = most_pushed_out(world, law_of_step(world.model, part_of_step(world.model, parts)));
     if (springs.push_out_energy > most * (1.0 + digits_of_kappa) + 1e-300)
         why << "pushing out puts in " << springs.push_out_energy << " J, its bound is " << most << " J\n";
     if (springs.push_out_energy < 0.0 || springs.stored_energy < 0.0 || books.report.outcome.stored_energy < 0.0)
@@ -174,8 +211,7 @@ Verdict pressed(std::uint64_t seed)
 {
     RandomWorld own = draw_world(seed, {.push_out = false, .press = true});
     World& world = own.world;
-    world.model.solver.tolerance = 1e-4;
-    world.model.solver.max_sweeps = 300;
+    world.model.solver.max_sweeps = 3000; // there may be no solution
     const double h = world.model.time_step;
     bool told = false, room = true;
     int steps_without = 0;
@@ -192,7 +228,7 @@ Verdict pressed(std::uint64_t seed)
         if (!is_finite(world)) return fail("not a number");
         const double walls = std::abs(books.report.outcome.wall_work);
         if (books.rise > 1e-2 * walls + 1e-3 * books.scale && own.is_frictionless())
-            return fail("energy rises by " + std::to_string(books.rise / books.scale) + " of the largest");
+            return fail(in_words(books));
         for (const Incident& incident : books.report.bodies.incidents)
             told = told || incident.kind == Incident::Kind::pressed;
         deepest = std::max(deepest, books.report.contacts.worst_overlap / world.model.min_diameter);
