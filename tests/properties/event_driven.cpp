@@ -55,8 +55,10 @@ std::vector<Event> EventDriven::next_two() const
             const Event event{.a = a, .b = w, .with_wall = true};
             double height = (s.x - face.point).dot(face.normal) - s.radius;
             const double fall = -gravity.dot(face.normal), speed = s.v.dot(face.normal);
-            if (event.same_bodies(last)) height = 0.0, consider(event, fall > 0.0 ? 2.0 * speed / fall : never);
-            else consider(event, time_to_fall(height, speed, fall));
+            if (event.same_bodies(last))
+                height = 0.0, consider(event, fall > 0.0 ? 2.0 * speed / fall : never);
+            else
+                consider(event, time_to_fall(height, speed, fall));
         }
     }
     return next;

@@ -24,14 +24,11 @@ struct Face {
 struct Event {
     double time = 0.0;
     int a = -1;
-    int b = -1;           ///< sphere, or wall
+    int b = -1; ///< sphere, or wall
     bool with_wall = false;
-    double speed = 0.0;   ///< with which they met, along the normal [m/s]
+    double speed = 0.0; ///< with which they met, along the normal [m/s]
 
-    bool same_bodies(const Event& other) const
-    {
-        return a == other.a && b == other.b && with_wall == other.with_wall;
-    }
+    bool same_bodies(const Event& other) const { return a == other.a && b == other.b && with_wall == other.with_wall; }
 };
 
 /// Hard spheres from impact to impact: flights are parabolas, so every instant is the root of a quadratic equation, and
@@ -47,7 +44,7 @@ struct EventDriven {
     /// The next two impacts of all, the earlier one first; an instant is infinite where there is none.
     std::vector<Event> next_two() const;
 
-    void fly(double until); ///< without impacts
+    void fly(double until);          ///< without impacts
     void strike(const Event& event); ///< flies to it, and changes velocities
 };
 

@@ -103,7 +103,8 @@ Floor any_floor(Draw& draw)
         const Box left{Vec3(-half, -half, -0.1), Vec3(0, half, 0)}, right{Vec3(0, -half, -0.1), Vec3(half, half, 0)};
         return {"two boxes flush", {box_panels(left, {}), box_panels(right, {})}};
     }
-    case 1: return {"two panels flush", {rectangle(-half, 0, -half, half), rectangle(0, half, -half, half)}};
+    case 1:
+        return {"two panels flush", {rectangle(-half, 0, -half, half), rectangle(0, half, -half, half)}};
     case 2: {
         Panels both = rectangle(-half, 0, -half, half);
         both.rectangles.push_back(rectangle(0, half, -half, half).rectangles[0]);
@@ -117,11 +118,13 @@ Floor any_floor(Draw& draw)
         return {"two meshes that lap over each other",
             {quad(-half, lap, -half, half, 0, draw.chance(0.5)), quad(0, half, -half, half, 0, draw.chance(0.5))}};
     }
-    case 5: return {"a mesh with T-junctions", {t_junction(draw)}};
+    case 5:
+        return {"a mesh with T-junctions", {t_junction(draw)}};
     case 6: {
         const double radius = draw.log_uniform(0.3, 5) * d;
         const Vec3 center(radius, 0, 0);
-        return {"a disk in the hole of another", {Disk{center, Vec3::UnitZ(), radius}, Disk{center, Vec3::UnitZ(), half, radius}}};
+        return {"a disk in the hole of another",
+            {Disk{center, Vec3::UnitZ(), radius}, Disk{center, Vec3::UnitZ(), half, radius}}};
     }
     case 7: {
         const double radius = draw.log_uniform(0.3, 5) * d;
@@ -144,7 +147,8 @@ Floor any_floor(Draw& draw)
     }
     default: {
         const double down = draw.log_uniform(1e-8, 1e-6);
-        return {"a step down", {quad(-half, 0, -half, half, 0, true), quad(0, half, -half, half, -down, true)}, 0, down};
+        return {
+            "a step down", {quad(-half, 0, -half, half, 0, true), quad(0, half, -half, half, -down, true)}, 0, down};
     }
     }
 }
@@ -180,8 +184,9 @@ Run any_run(Draw& draw, bool may_turn)
 
 std::string told(const Run& run)
 {
-    return text("%s, e %.3g, friction %.3g, %s at %.4g m/s, %.4g degrees from the normal of the joint, from %.3g d before "
-                "it%s%s",
+    return text(
+        "%s, e %.3g, friction %.3g, %s at %.4g m/s, %.4g degrees from the normal of the joint, from %.3g d before "
+        "it%s%s",
         run.law == Stabilisation::matched ? "matched" : "projected", run.e, run.friction,
         run.rolls ? "rolling" : "sliding", run.speed, run.angle * 180 / std::numbers::pi, run.start / d,
         run.turn.isIdentity() ? "" : ", all turned", run.shift.isZero() ? "" : ", all shifted");
@@ -238,7 +243,8 @@ Fault level_joint(Draw& draw)
     const double gain = standard_gravity * floor.down / (run.speed * run.speed);
     const double change = (over.velocity - plain.velocity).head<2>().norm() / run.speed;
     if (over.leap < highest_leap && change < greatest_loss + gain) return {};
-    return text("%s%s, ", floor.name.c_str(), floor.down > 0.0 ? text(" of %.2g m", floor.down).c_str() : "") + told(run) +
+    return text("%s%s, ", floor.name.c_str(), floor.down > 0.0 ? text(" of %.2g m", floor.down).c_str() : "") +
+           told(run) +
            text("\n  leap %.3g d, velocity changed by %.2g of its speed: (%.6g, %.6g, %.6g) for (%.6g, %.6g, %.6g)",
                over.leap, change, over.velocity.x(), over.velocity.y(), over.velocity.z(), plain.velocity.x(),
                plain.velocity.y(), plain.velocity.z());
@@ -263,8 +269,8 @@ Fault pipe_joint(Draw& draw)
                plain.velocity.y(), plain.velocity.z());
 }
 
-/// A step up of a millimetre is met at its edge, whose normal points back: 0.6 of the speed is along it, and what is slow
-/// stays before it.
+/// A step up of a millimetre is met at its edge, whose normal points back: 0.6 of the speed is along it, and what is
+/// slow stays before it.
 Fault real_edge(Draw& draw)
 {
     Run run = any_run(draw, true);
@@ -328,11 +334,18 @@ Fault real_edge(Draw& draw)
 
 } // namespace
 
-#define PROPERTY(name, tags, usual, many, world)                                                                      \
-    TEST_CASE(name, tags) { for_all_worlds(usual, world); }                                                           \
-    TEST_CASE(name " (many)", tags "[slow]") { for_all_worlds(many, world); }
+#define PROPERTY(name, tags, usual, many, world)                                                                       \
+    TEST_CASE(name, tags)                                                                                              \
+    {                                                                                                                  \
+        for_all_worlds(usual, world);                                                                                  \
+    }                                                                                                                  \
+    TEST_CASE(name " (many)", tags "[slow]")                                                                           \
+    {                                                                                                                  \
+        for_all_worlds(many, world);                                                                                   \
+    }
 
-PROPERTY("a sphere runs over a level joint as over one piece", "[joints][level]", usual_worlds, many_worlds, level_joint)
+PROPERTY(
+    "a sphere runs over a level joint as over one piece", "[joints][level]", usual_worlds, many_worlds, level_joint)
 PROPERTY("a sphere runs through pipe lengths as through one pipe", "[joints][pipe]", usual_worlds / 4, many_worlds / 4,
     pipe_joint)
 PROPERTY("an edge that stands up stops what it should", "[joints][edge]", usual_worlds / 2, many_worlds / 2, real_edge)

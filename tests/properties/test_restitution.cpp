@@ -8,8 +8,8 @@
 #include <numeric>
 #include <vector>
 
-// Restitution e means that what meets parts with e times its speed. All worlds have the settings that a scene gets which
-// asks for nothing.
+// Restitution e means that what meets parts with e times its speed. All worlds have the settings that a scene gets
+// which asks for nothing.
 
 namespace talus::test
 {
@@ -77,8 +77,8 @@ Fault pair_in_flight(Draw& draw)
     return text("two spheres meet in flight, %s, e %.3g, masses 1 : %.4g, radii 1 : %.4g, gravity %d, step %.3g s\n"
                 "  they meet with %.4g m/s, %.4g m/s of it along the normal, after %.3g steps; error %.2g of the speed",
                name(law), e, ratio, size, gravity, h, speed, -u.dot(n), t / h, error) +
-           "\n  first " + told(world.velocity(0)) + " for " + told(a) + ", second " + told(world.velocity(1)) + " for " +
-           told(b);
+           "\n  first " + told(world.velocity(0)) + " for " + told(a) + ", second " + told(world.velocity(1)) +
+           " for " + told(b);
 }
 
 /// A sphere meets a plane, which may lie at any angle.
@@ -109,8 +109,9 @@ Fault sphere_and_wall(Draw& draw)
     const double error = (world.velocity() - tangential - normal * n).norm() / speed;
     // With e = 0 it ends on the wall, which the blow may be a step before it is.
     if (error < 1e-9) return {};
-    return text("a sphere meets a plane, %s, e %.3g, gravity %d, step %.3g s: %.4g m/s, %.4g m/s of it along the normal, "
-                "after %.3g steps; parts with %.9g m/s for %.9g m/s, error %.2g of the speed",
+    return text(
+        "a sphere meets a plane, %s, e %.3g, gravity %d, step %.3g s: %.4g m/s, %.4g m/s of it along the normal, "
+        "after %.3g steps; parts with %.9g m/s for %.9g m/s, error %.2g of the speed",
         name(law), e, gravity, h, speed, -before.dot(n), t / h, world.velocity().dot(n), normal, error);
 }
 
@@ -124,7 +125,7 @@ Fault cradle(Draw& draw)
     const int n = draw.integer(2, 7), moving = draw.integer(1, std::min(3, n - 1));
     const double speed = draw.log_uniform(0.2, 5);
     const bool floor = draw.chance(0.5);
-    const int kind = draw.integer(0, 2); // touching, squeezed, apart
+    const int kind = draw.integer(0, 2);                                    // touching, squeezed, apart
     const double squeeze = kind == 1 ? draw.log_uniform(1e-15, 1e-3) : 0.0; // of a weight
     World world = empty_world({.restitution = 1.0}, floor);
     if (floor) world.add_plane(Vec3::Zero(), Vec3::UnitZ());
@@ -158,13 +159,15 @@ Fault cradle(Draw& draw)
     return text("a cradle of %d, %s, %d of it come with %.4g m/s, %s, step %.3g s: %s; error %.2g of the speed\n"
                 "  velocities in the end, of that speed:",
                n, name(law), moving, speed, floor ? "on a floor" : "without gravity", world.model.time_step,
-               kind == 0 ? "the others touch" : kind == 1 ? text("the others touch, squeezed by %.3g of a weight", squeeze).c_str() :
-               text("gaps up to %.3g d", widest / d).c_str(), error) +
+               kind == 0   ? "the others touch"
+               : kind == 1 ? text("the others touch, squeezed by %.3g of a weight", squeeze).c_str()
+                           : text("gaps up to %.3g d", widest / d).c_str(),
+               error) +
            speeds;
 }
 
-/// The velocities, along a line upwards, that a column has after impacts of two at a time, where these are few, and none
-/// is slow.
+/// The velocities, along a line upwards, that a column has after impacts of two at a time, where these are few, and
+/// none is slow.
 /// @param from_below which of them comes first; @return their number, −1 where there is no such sequence
 int binary_impacts(std::vector<double>& v, const std::vector<double>& m, double e, double slowest, bool from_below)
 {
@@ -207,7 +210,8 @@ Fault stacked_drop(Draw& draw)
             const double ratio = k == 0 ? 1.0 : draw.log_uniform(1e-3, 1e3);
             const double size = draw.chance(0.5) ? 1.0 : std::cbrt(ratio);
             const double r = standard_radius * size;
-            world.add_sphere(Vec3(0, 0, z + r), Vec3(0, 0, -speed), Vec3::Zero(), r, standard_density * ratio / std::pow(size, 3));
+            world.add_sphere(
+                Vec3(0, 0, z + r), Vec3(0, 0, -speed), Vec3::Zero(), r, standard_density * ratio / std::pow(size, 3));
             z += 2 * r;
             m.push_back(world.mass(k));
             masses += text(" %.4g (radius %.3g)", ratio, size);
@@ -218,7 +222,8 @@ Fault stacked_drop(Draw& draw)
         const int impacts = binary_impacts(expected, m, e, slowest, true);
         if (impacts < 0 || binary_impacts(reversed, m, e, slowest, false) < 0) continue;
         double dependence = 0.0;
-        for (std::size_t k = 0; k < m.size(); ++k) dependence = std::max(dependence, std::abs(expected[k] - reversed[k]));
+        for (std::size_t k = 0; k < m.size(); ++k)
+            dependence = std::max(dependence, std::abs(expected[k] - reversed[k]));
         if (dependence > 1e-9 * speed) continue;
         set_as_a_scene(world, law);
         const double h = world.model.time_step;
@@ -237,8 +242,10 @@ Fault stacked_drop(Draw& draw)
             found += text(" %.4g (%.4g)", v / speed, should / speed);
         }
         if (error < 1e-3 * fastest + fall * fastest / speed) return {};
-        return text("%d spheres on each other fall on a floor with %.4g m/s, %s, e %.3g, gravity %d, step %.3g s, %.3g steps "
-                    "above it\n  masses from below:", n, speed, name(law), e, gravity, h, lift / (speed * h)) +
+        return text("%d spheres on each other fall on a floor with %.4g m/s, %s, e %.3g, gravity %d, step %.3g s, %.3g "
+                    "steps "
+                    "above it\n  masses from below:",
+                   n, speed, name(law), e, gravity, h, lift / (speed * h)) +
                masses + "\n  velocities after it, of that speed (impacts one by one):" + found;
     }
 }
@@ -247,11 +254,11 @@ Fault stacked_drop(Draw& draw)
 
 struct Drop {
     Stabilisation law = Stabilisation::matched;
-    int beads = 1;       ///< at rest, one on the other
-    double ratio = 1.0;  ///< mass of what falls, of a bead's
-    bool large = false;  ///< it is of the beads' density
-    double speed = 1.0;  ///< with which it arrives [m/s]
-    double phase = 0.0;  ///< of a step, at which it does
+    int beads = 1;      ///< at rest, one on the other
+    double ratio = 1.0; ///< mass of what falls, of a bead's
+    bool large = false; ///< it is of the beads' density
+    double speed = 1.0; ///< with which it arrives [m/s]
+    double phase = 0.0; ///< of a step, at which it does
 };
 
 Drop any_drop(Draw& draw, int fewest, int most, double greatest_ratio)
@@ -268,8 +275,8 @@ Drop any_drop(Draw& draw, int fewest, int most, double greatest_ratio)
 
 std::string told(const Drop& drop)
 {
-    return text("%s, a sphere of mass %.4g (%s) falls with %.4g m/s on %d beads of mass 1 at rest, phase %.4g", name(drop.law),
-        drop.ratio, drop.large ? "same density" : "same size", drop.speed, drop.beads, drop.phase);
+    return text("%s, a sphere of mass %.4g (%s) falls with %.4g m/s on %d beads of mass 1 at rest, phase %.4g",
+        name(drop.law), drop.ratio, drop.large ? "same density" : "same size", drop.speed, drop.beads, drop.phase);
 }
 
 /// The greatest speed upwards of what fell, of that with which it arrived.
@@ -280,8 +287,8 @@ double rebound(const Drop& drop, double e)
     for (int k = 0; k < drop.beads; ++k) world.add_sphere(Vec3(0, 0, (2 * k + 1) * standard_radius));
     const double size = drop.large ? std::cbrt(drop.ratio) : 1.0, r = size * standard_radius;
     const double height = drop.speed * drop.speed / (2 * standard_gravity);
-    const std::int64_t id = world.add_sphere(Vec3(0, 0, drop.beads * d + r + height + 2 * d), Vec3::Zero(), Vec3::Zero(), r,
-        standard_density * drop.ratio / std::pow(size, 3));
+    const std::int64_t id = world.add_sphere(Vec3(0, 0, drop.beads * d + r + height + 2 * d), Vec3::Zero(),
+        Vec3::Zero(), r, standard_density * drop.ratio / std::pow(size, 3));
     set_as_a_scene(world, drop.law);
     const double h = world.model.time_step;
     // The beads come to rest while it is still high above them; then it is let go nearer to them.
@@ -348,9 +355,15 @@ Fault rising(Draw& draw)
 
 } // namespace
 
-#define PROPERTY(name, tags, usual, many, world)                                                                      \
-    TEST_CASE(name, tags) { for_all_worlds(usual, world); }                                                           \
-    TEST_CASE(name " (many)", tags "[slow]") { for_all_worlds(many, world); }
+#define PROPERTY(name, tags, usual, many, world)                                                                       \
+    TEST_CASE(name, tags)                                                                                              \
+    {                                                                                                                  \
+        for_all_worlds(usual, world);                                                                                  \
+    }                                                                                                                  \
+    TEST_CASE(name " (many)", tags "[slow]")                                                                           \
+    {                                                                                                                  \
+        for_all_worlds(many, world);                                                                                   \
+    }
 
 PROPERTY("two spheres that meet in flight part with e times their speed, whatever their masses", "[restitution][pair]",
     usual_worlds, many_worlds, pair_in_flight)
