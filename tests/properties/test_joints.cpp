@@ -222,8 +222,8 @@ struct Ride {
     double step = 0.0;
 };
 
-/// @param from_middle it begins at y = 0, the bottom of a pipe
-Ride ride(const Floor& floor, const Run& run, bool from_middle = false)
+/// @param from_middle it begins at y = 0, the bottom of a pipe; @param step if not the automatic one [s]
+Ride ride(const Floor& floor, const Run& run, bool from_middle = false, double step = 0.0)
 {
     World world = empty_world({.friction = run.friction, .restitution = run.e});
     world.model.gravity = run.turn * world.model.gravity;
@@ -240,6 +240,7 @@ Ride ride(const Floor& floor, const Run& run, bool from_middle = false)
     const Vec3 spin = run.rolls ? Vec3(Vec3::UnitZ().cross(way) * run.speed / standard_radius) : Vec3::Zero();
     world.add_sphere(run.turn * begin + run.shift, run.speed * (run.turn * way), run.turn * spin);
     set_as_a_scene(world, run.law);
+    if (step > 0.0) world.model.time_step = step;
     Ride ride;
     ride.step = world.model.time_step;
     const double length = (run.start + 0.6 * d) / way.x();
@@ -262,7 +263,7 @@ Fault level_joint(Draw& draw)
 {
     const Floor floor = any_floor(draw);
     const Run run = any_run(draw, floor.period == 0.0);
-    const Ride over = ride(floor, run), plain = ride({"a plane", {Plane{}}}, run);
+    const Ride over = ride(floor, run), plain = ride({"a plane", {Plane{}}}, run, false, over.step);
     // Down a step it gains what it falls.
     const double gain = standard_gravity * floor.down / (run.speed * run.speed);
     const double change = (over.velocity - plain.velocity).head<2>().norm() / run.speed;
@@ -279,12 +280,14 @@ Fault pipe_joint(Draw& draw)
 {
     const double radius = draw.log_uniform(0.6, 20) * d;
     Run run = any_run(draw, true);
-    run.angle = draw.chance(0.3) ? 0.0 : draw.uniform(-20, 20) * std::numbers::pi / 180;
+    // It swings to the side, pressed to the wall by a few times its weight at most.
+    const double swing = std::sqrt(draw.uniform(0, 3) * standard_gravity * (radius - standard_radius));
+    run.angle = draw.chance(0.3) ? 0.0 : draw.sign() * std::asin(std::min(0.3, swing / run.speed));
     run.aside = 0.0;
     const Vec3 axis = Vec3::UnitX();
     const auto pipe = [&](double from, double to) { return Cylinder{Vec3(from, 0, radius), axis, radius, to - from}; };
     const Floor lengths{"", {pipe(-half, 0), pipe(0, half)}}, whole{"", {pipe(-half, half)}};
-    const Ride over = ride(lengths, run, true), plain = ride(whole, run, true);
+    const Ride over = ride(lengths, run, true), plain = ride(whole, run, true, over.step);
     const double change = (over.velocity - plain.velocity).norm() / run.speed;
     if (std::abs(over.leap - plain.leap) < highest_leap && change < greatest_loss) return {};
     return text("pipe lengths of radius %.3g d, ", radius / d) + told(run) +

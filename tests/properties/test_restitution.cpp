@@ -126,13 +126,13 @@ Fault cradle(Draw& draw)
     const double speed = draw.log_uniform(0.2, 5);
     const bool floor = draw.chance(0.5);
     const int kind = draw.integer(0, 2);                                    // touching, squeezed, apart
-    const double squeeze = kind == 1 ? draw.log_uniform(1e-15, 1e-3) : 0.0; // of a weight
+    const double squeeze = kind == 2 ? draw.log_uniform(1e-15, 1e-3) : 0.0; // of a weight
     World world = empty_world({.restitution = 1.0}, floor);
     if (floor) world.add_plane(Vec3::Zero(), Vec3::UnitZ());
     double x = 0.0, widest = 0.0;
     for (int k = 0; k < n; ++k) {
         world.add_sphere(Vec3(x, 0, standard_radius), k < moving ? Vec3(speed, 0, 0) : Vec3::Zero());
-        const double gap = kind == 2 ? draw.log_uniform(1e-12, 0.05) * d : 0.0;
+        const double gap = kind == 1 ? draw.log_uniform(1e-12, 0.05) * d : 0.0;
         widest = std::max(widest, gap);
         x += d + (k == moving - 1 ? draw.uniform(0.1, 0.6) * d : gap);
     }
@@ -147,8 +147,8 @@ Fault cradle(Draw& draw)
     const int steps = static_cast<int>(length / (speed * world.model.time_step)) + 4 * n;
     world.step(steps);
     const double time = steps * world.model.time_step;
-    // What squeezes goes on to push, and a bead that rests on the floor has rounding to do so.
-    const double tolerance = 1e-3 + 2.0 * squeeze * standard_gravity * time / speed;
+    // Impacts that come in one step are solved to the tolerance, 1e-2; and what squeezes goes on to push.
+    const double tolerance = 2e-2 + 2.0 * squeeze * standard_gravity * time / speed;
     double error = 0.0;
     std::string speeds;
     for (int k = 0; k < n; ++k) {
@@ -160,8 +160,8 @@ Fault cradle(Draw& draw)
                 "  velocities in the end, of that speed:",
                n, name(law), moving, speed, floor ? "on a floor" : "without gravity", world.model.time_step,
                kind == 0   ? "the others touch"
-               : kind == 1 ? text("the others touch, squeezed by %.3g of a weight", squeeze).c_str()
-                           : text("gaps up to %.3g d", widest / d).c_str(),
+               : kind == 1 ? text("gaps up to %.3g d", widest / d).c_str()
+                           : text("the others touch, squeezed by %.3g of a weight", squeeze).c_str(),
                error) +
            speeds;
 }
