@@ -125,7 +125,7 @@ Fault cradle(Draw& draw)
     const int n = draw.integer(2, 7), moving = draw.integer(1, std::min(3, n - 1));
     const double speed = draw.log_uniform(0.2, 5);
     const bool floor = draw.chance(0.5);
-    const int kind = draw.integer(0, 2);                                    // touching, squeezed, apart
+    const int kind = draw.integer(0, floor ? 2 : 1);                        // touching, apart, squeezed
     const double squeeze = kind == 2 ? draw.log_uniform(1e-15, 1e-3) : 0.0; // of a weight
     World world = empty_world({.restitution = 1.0}, floor);
     if (floor) world.add_plane(Vec3::Zero(), Vec3::UnitZ());
@@ -172,7 +172,8 @@ Fault cradle(Draw& draw)
 int binary_impacts(std::vector<double>& v, const std::vector<double>& m, double e, double slowest, bool from_below)
 {
     const std::size_t n = v.size();
-    for (int count = 0; count < 3 * static_cast<int>(n) + 4; ++count) {
+    std::vector<int> met(n);
+    for (int count = 0;; ++count) {
         std::size_t next = n; // contact k is below sphere k
         bool slow = false;
         for (std::size_t k = 0; k < n; ++k) {
@@ -181,7 +182,7 @@ int binary_impacts(std::vector<double>& v, const std::vector<double>& m, double 
             slow = slow || (closing > 1e-12 && closing < slowest);
         }
         if (next == n) return count;
-        if (slow) return -1;
+        if (slow || ++met[next] > 2) return -1;
         if (next == 0) {
             v[0] = -e * v[0];
             continue;
@@ -190,7 +191,6 @@ int binary_impacts(std::vector<double>& v, const std::vector<double>& m, double 
         v[next - 1] -= impulse / m[next - 1];
         v[next] += impulse / m[next];
     }
-    return -1;
 }
 
 /// Spheres on each other fall on a floor: Galileo's cannon.
@@ -229,8 +229,19 @@ Fault stacked_drop(Draw& draw)
         const double h = world.model.time_step;
         const double lift = draw.uniform(0, 2) * speed * h;
         for (Vec3& x : world.state.position) x.z() += lift;
-        const int steps = impacts + 4;
-        world.step(steps);
+        // Until none approaches the next, but for what gravity does meanwhile.
+        int steps = 0;
+        const auto goes_on = [&] {
+            double below = 0.0;
+            const double fallen = gravity ? steps * h * standard_gravity : 0.0;
+            for (int k = 0; k < n; ++k) {
+                const double v = world.velocity(k).z() + fallen;
+                if (v < below - 1e-3 * speed) return true;
+                below = v;
+            }
+            return false;
+        };
+        while (steps < 10 * impacts + 20 && goes_on()) world.step(), ++steps;
         // Gravity acts in the steps that a sequence takes, and is multiplied as velocities are.
         const double fall = gravity ? steps * h * standard_gravity : 0.0;
         double error = 0.0, fastest = speed;
@@ -241,7 +252,7 @@ Fault stacked_drop(Draw& draw)
             error = std::max(error, std::abs(v - should));
             found += text(" %.4g (%.4g)", v / speed, should / speed);
         }
-        if (error < 1e-3 * fastest + fall * fastest / speed) return {};
+        if (error < 1e-2 * fastest + 2 * fall * fastest / speed) return {};
         return text("%d spheres on each other fall on a floor with %.4g m/s, %s, e %.3g, gravity %d, step %.3g s, %.3g "
                     "steps "
                     "above it\n  masses from below:",
