@@ -386,7 +386,7 @@ PROPERTY("a stack that falls on a floor is a sequence of binary impacts", "[rest
     many_worlds, stacked_drop)
 PROPERTY("without restitution next to nothing comes back from a floor, or from a bead on it", "[restitution][dead]",
     usual_worlds, many_worlds, dead_drop_on_one)
-PROPERTY("without restitution little comes back from a column", "[restitution][dead]", usual_worlds / 4,
+PROPERTY("without restitution little comes back from a column", "[restitution][column]", usual_worlds / 4,
     many_worlds / 4, dead_drop_on_column)
 PROPERTY("a sphere up to ten times as heavy as the resting bead that it meets comes back with about e times its speed",
     "[restitution][bead]", usual_worlds, many_worlds, live_drop_on_one)
