@@ -14,7 +14,7 @@ namespace talus::test
 class Draw
 {
 public:
-    explicit Draw(std::uint64_t seed) : state_(seed) { state_ = next(); } // far from where the next seed begins
+    explicit Draw(std::uint64_t seed) : state_(mixed(seed ^ 0x632be59bd9b4e019U)) {}
 
     double uniform(double from, double to) { return from + (to - from) * 0x1.0p-53 * static_cast<double>(next() >> 11); }
     /// Its logarithm is uniform.
@@ -39,9 +39,10 @@ public:
 private:
     std::uint64_t state_;
 
-    std::uint64_t next()
+    std::uint64_t next() { return mixed(state_ += 0x9e3779b97f4a7c15U); }
+
+    static std::uint64_t mixed(std::uint64_t z)
     {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
         return z ^ (z >> 31);

@@ -16,7 +16,6 @@ namespace
 {
 
 constexpr double d = 2 * standard_radius;
-constexpr int usual_worlds = 1000, many_worlds = 100000;
 constexpr double half = 0.2; ///< of the floors' edges [m]
 
 using Turn = Eigen::Matrix3d;
@@ -363,20 +362,19 @@ Fault real_edge(Draw& draw)
 
 } // namespace
 
-#define PROPERTY(name, tags, usual, many, world)                                                                       \
-    TEST_CASE(name, tags)                                                                                              \
-    {                                                                                                                  \
-        for_all_worlds(usual, world);                                                                                  \
-    }                                                                                                                  \
-    TEST_CASE(name " (many)", tags "[slow]")                                                                           \
-    {                                                                                                                  \
-        for_all_worlds(many, world);                                                                                   \
-    }
+TEST_CASE("a sphere runs over a level joint as over one piece", "[joints][level]")
+{
+    for_all_worlds(1.0, level_joint);
+}
 
-PROPERTY(
-    "a sphere runs over a level joint as over one piece", "[joints][level]", usual_worlds, many_worlds, level_joint)
-PROPERTY("a sphere runs through pipe lengths as through one pipe", "[joints][pipe]", usual_worlds / 4, many_worlds / 4,
-    pipe_joint)
-PROPERTY("an edge that stands up stops what it should", "[joints][edge]", usual_worlds / 2, many_worlds / 2, real_edge)
+TEST_CASE("a sphere runs through pipe lengths as through one pipe", "[joints][pipe]")
+{
+    for_all_worlds(1.0 / 4, pipe_joint);
+}
+
+TEST_CASE("an edge that stands up stops what it should", "[joints][edge]")
+{
+    for_all_worlds(1.0 / 2, real_edge);
+}
 
 } // namespace talus::test

@@ -17,7 +17,6 @@ namespace
 {
 
 constexpr double d = 2 * standard_radius;
-constexpr int usual_worlds = 1000, many_worlds = 100000;
 
 Stabilisation any_law(Draw& draw)
 {
@@ -366,31 +365,45 @@ Fault rising(Draw& draw)
 
 } // namespace
 
-#define PROPERTY(name, tags, usual, many, world)                                                                       \
-    TEST_CASE(name, tags)                                                                                              \
-    {                                                                                                                  \
-        for_all_worlds(usual, world);                                                                                  \
-    }                                                                                                                  \
-    TEST_CASE(name " (many)", tags "[slow]")                                                                           \
-    {                                                                                                                  \
-        for_all_worlds(many, world);                                                                                   \
-    }
+TEST_CASE("two spheres that meet in flight part with e times their speed, whatever their masses", "[restitution][pair]")
+{
+    for_all_worlds(1.0, pair_in_flight);
+}
 
-PROPERTY("two spheres that meet in flight part with e times their speed, whatever their masses", "[restitution][pair]",
-    usual_worlds, many_worlds, pair_in_flight)
-PROPERTY("a sphere that meets a plane parts from it with e times its speed", "[restitution][wall]", usual_worlds,
-    many_worlds, sphere_and_wall)
-PROPERTY("as many elastic spheres leave a cradle as have come, touching, squeezed, or apart", "[restitution][cradle]",
-    usual_worlds, many_worlds, cradle)
-PROPERTY("a stack that falls on a floor is a sequence of binary impacts", "[restitution][stack]", usual_worlds,
-    many_worlds, stacked_drop)
-PROPERTY("without restitution next to nothing comes back from a floor, or from a bead on it", "[restitution][dead]",
-    usual_worlds, many_worlds, dead_drop_on_one)
-PROPERTY("without restitution little comes back from a column", "[restitution][column]", usual_worlds / 4,
-    many_worlds / 4, dead_drop_on_column)
-PROPERTY("a sphere up to ten times as heavy as the resting bead that it meets comes back with about e times its speed",
-    "[restitution][bead]", usual_worlds, many_worlds, live_drop_on_one)
-PROPERTY("more comes back where the restitution is greater", "[restitution][rising]", usual_worlds / 8, many_worlds / 8,
-    rising)
+TEST_CASE("a sphere that meets a plane parts from it with e times its speed", "[restitution][wall]")
+{
+    for_all_worlds(1.0, sphere_and_wall);
+}
+
+TEST_CASE("as many elastic spheres leave a cradle as have come, touching, squeezed, or apart", "[restitution][cradle]")
+{
+    for_all_worlds(1.0, cradle);
+}
+
+TEST_CASE("a stack that falls on a floor is a sequence of binary impacts", "[restitution][stack]")
+{
+    for_all_worlds(1.0, stacked_drop);
+}
+
+TEST_CASE("without restitution next to nothing comes back from a floor, or from a bead on it", "[restitution][dead]")
+{
+    for_all_worlds(1.0, dead_drop_on_one);
+}
+
+TEST_CASE("without restitution little comes back from a column", "[restitution][column]")
+{
+    for_all_worlds(1.0 / 4, dead_drop_on_column);
+}
+
+TEST_CASE("a sphere up to ten times as heavy as the resting bead that it meets comes back with about e times its speed",
+    "[restitution][bead]")
+{
+    for_all_worlds(1.0, live_drop_on_one);
+}
+
+TEST_CASE("more comes back where the restitution is greater", "[restitution][rising]")
+{
+    for_all_worlds(1.0 / 8, rising);
+}
 
 } // namespace talus::test
