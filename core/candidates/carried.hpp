@@ -22,7 +22,7 @@ public:
     bool is_loaded() const { return state_ == 1 || state_ >= 3; }
     /// In the step before it closed a gap.
     bool was_open() const { return state_ == 5; }
-    /// In the step before it was an impact, or it has yielded since it was.
+    /// In the step before it was an impact.
     bool was_impact() const { return state_ == 2; }
     bool is_jammed() const { return state_ == 3 || state_ == 4; }
     /// In the step before, it came to be so.
@@ -37,7 +37,7 @@ public:
     {
         if (is_jammed() || at_largest)
             state_ = is_jammed() ? 4 : 3;
-        else if (!was_impact())
+        else
             state_ = 1;
     }
 

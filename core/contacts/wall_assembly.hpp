@@ -53,7 +53,6 @@ public:
         for (int d = 0; d < 3; ++d) touch_.carried[d][lane] = carried.impulse[d];
         touch_.compression[lane] = carried.compression;
         touch_.pushed[lane] = -static_cast<std::int64_t>(carried.touch.was_open());
-        touch_.struck[lane] = -static_cast<std::int64_t>(carried.touch.was_impact());
         touch_.gap[lane] = at.gap;
         touch_.diameter[lane] = 2.0 * state_.radius(at.sphere);
         touch_.u_n[lane] = at.u_n;

@@ -35,7 +35,7 @@ inline constexpr double yield_overlap = 0.03;
 /// How near the centre the strength of a contact grows, in the same diameters.
 inline constexpr double least_rest = 0.01;
 
-/// Overlap up to which a contact is deferred beside an impact, in smallest diameters.
+/// Overlap up to which a contact is deferred beside an impact, in diameters of the smaller sphere.
 inline constexpr double deferred_overlap = 0.4;
 
 /// What the laws of all contacts of a step share.
@@ -71,7 +71,6 @@ template <class N> struct ContactEvent {
     N stiffness;        ///< k [N/m]
     N load;             ///< λ_n of the step before [N s] …
     N compression;      ///< … and the κ that it has left [m]
-    Answer<N> struck;   ///< it was an impact then, or has been deep since it was
 };
 
 template <class N> [[gnu::always_inline]] inline N smaller(const N& a, const N& b)
@@ -150,12 +149,12 @@ template <class N> [[gnu::always_inline]] inline N strengthening(const ContactEv
 }
 
 /// Whether a contact is an impact in this step: it closes, faster than gravity alone would have it, and has no load.
-/// What an impact has not stopped before it is deep, yields.
+/// What impacts have not stopped before it is as deep as a deferred one may be, yields.
 template <class N>
 [[gnu::always_inline]] inline Answer<N> is_impact(const ContactEvent<N>& event, const LawOfStep& step)
 {
     const Answer<N> closes = touches<N>(event.gap, step) | (event.closes < N{} + step.h);
-    const Answer<N> unstopped = event.struck & yields<N>(event);
+    const Answer<N> unstopped = -event.gap > deferred_overlap * event.diameter;
     return (event.u_n < N{} - step.threshold_speed) & closes & (event.load < load_share * impact_size<N>(event)) &
            (!unstopped);
 }
@@ -186,9 +185,7 @@ template <class N>
     const N yielding = smaller<N>(none + step.push_out_speed, per_way * deepest);
     const N push = open ? -event.gap / step.h : (step.rigid ? none : (is_deep ? yielding : per_way * kappa));
 
-    const N slack = (step.rigid ? event.inverse_mass_sum * event.load : none);
-    const N capped = smaller<N>(push, 2.0 * larger<N>(none, push) - event.u_n + slack);
-    const N target = impact ? -event.restitution * event.u_n : (is_spring ? push : capped);
+    const N target = impact ? -event.restitution * event.u_n : (is_spring ? push : passive_target<N>(push, event.u_n));
     const Answer<N> keeps = step.rigid ? Answer<N>{} : is_spring | (rests & (event.u_n < least / step.h));
     return {target, step.rigid ? none : (rests ? compliance : none),
         (is_deep & !impact) ? strengthening<N>(event) * per_way * deepest / compliance : infinite, keeps ? kappa : -infinite};

@@ -238,7 +238,7 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     move_flights(prepared.flights, state);
     const double load_work = move_pistons(state, model.pistons, h);
     if (model.solver.stabilisation == Stabilisation::projected)
-        project_positions(network, state, model, prepared.walls, projected_share);
+        report.lifted_energy = project_positions(network, state, model, prepared.walls, projected_share);
     if (step.is_split()) hold_at_walls(network, state, model, prepared.walls);
     wrap_positions(state, model.periodicity);
     state.time = step.is_split() ? state.time + h : static_cast<double>(++state.steps) * h;
