@@ -18,13 +18,13 @@ public:
     {
     }
 
-    /// Notes what spheres bear.
+    /// Notes what other spheres press on spheres with.
     void note_loads()
     {
         for_each([&](std::size_t k) {
             const double load = contacts_.impulse(k).dot(contacts_.normal(k));
             impacts_[contacts_.a(k)].note_load(load);
-            if (!with_walls_) impacts_[contacts_.b(k)].note_load(load);
+            impacts_[contacts_.b(k)].note_load(load);
         });
     }
 
@@ -81,7 +81,7 @@ private:
         const bool is_loaded = load >= load_share * impact, was_impact = own.touch.was_impact();
         const bool parts = was_impact && u_n > touching_gap * step.min_diameter / step.h; // but for rounding
         // What impacts press on beside them is no load that a contact may count on, but what its spheres bore.
-        const double hands_on = std::max(a.load, b.load);
+        const double hands_on = std::max({load, a.load, b.load});
         if (!is_loaded && !was_impact)
             contacts_.set_law(k, ContactKind::deferred, deferred_target(own.gap, u_n, step), -INFINITY, 0.0);
         else if (parts || (is_loaded && load < light_share * impact))
@@ -102,7 +102,6 @@ double stand_beside_impacts(ContactNetwork& network, const State& state, const M
     };
     const auto walls = [&](std::size_t tile) { return Bystanders(contacts.walls[tile], true, contacts.impacts, state); };
     Bystanders pistons(contacts.pistons, true, contacts.impacts, state);
-    pistons.note_loads();
     double ratio = pistons.settle(step, [&](std::size_t k) {
         const PistonState& own = state.pistons[static_cast<std::size_t>(model.walls[contacts.pistons.b(k)].piston)];
         return Vec3(own.velocity + own.spin.cross(contacts.piston_arms[k]));
@@ -113,7 +112,6 @@ double stand_beside_impacts(ContactNetwork& network, const State& state, const M
         for (std::int64_t t = 0; t < tiles; ++t) {
             const auto tile = static_cast<std::size_t>(t);
             spheres(tile).note_loads();
-            walls(tile).note_loads();
         }
 #pragma omp for schedule(dynamic) reduction(max : ratio)
         for (std::int64_t t = 0; t < tiles; ++t) {

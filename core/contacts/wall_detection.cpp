@@ -10,7 +10,7 @@ namespace
 
 /// A point no higher above the tangent plane of a nearer contact is out of reach; in radii. Walls that are made to be
 /// level differ by less.
-constexpr double level = 1e-4;
+constexpr double level = 1e-3;
 
 constexpr int halvings = 20; ///< of a step, to find where a path comes nearest to an edge that it passes
 
