@@ -260,6 +260,7 @@ Verdict ruled_alike_in_parts(std::uint64_t seed)
     if (!warm_up(own)) return {Verdict::Outcome::no_room};
     const World& world = own.world;
     const double d = world.model.min_diameter, h = world.model.time_step, p = world.model.solver.push_out_speed;
+    const double largest = largest_velocity(world);
     const int parts = Draw(~seed).integer(2, 10);
     const Laws whole = laws_of(world, 1), split = laws_of(world, parts);
     std::ostringstream why;
@@ -272,10 +273,9 @@ Verdict ruled_alike_in_parts(std::uint64_t seed)
     const auto is_bystander = [&](const auto& key) {
         return whole.met.contains(std::get<0>(key)) || (!std::get<2>(key) && whole.met.contains(std::get<1>(key)));
     };
-    const double fastest = 2.0 * largest_velocity(world);
+    const double fastest = 2.0 * largest;
     // By which the target of a blow changes where it is seen from another instant of the step.
-    double turn = 0.0;
-    for (const Motion& m : world.state.motion) turn = std::max(turn, 8.0 * h / d * m.velocity.squaredNorm());
+    const double turn = 8.0 * h / d * largest * largest;
     for (const auto& [key, law] : whole) {
         if (law.gap > -clearly * d || is_bystander(key)) continue;
         const auto found = split.find(key);
