@@ -30,7 +30,8 @@ std::string told_unsolved(const RandomWorld& own, const StepReport& report)
 {
     std::ostringstream text;
     text << "world " << own.seed << " is not solved: residual " << report.solve.residual << " after "
-         << report.solve.sweeps << " sweeps, masses 1 : " << own.mass_ratio() << (own.is_frictionless() ? "" : ", friction") << '\n'
+         << report.solve.sweeps << " sweeps, masses 1 : " << own.mass_ratio()
+         << (own.is_frictionless() ? "" : ", friction") << '\n'
          << picture(own);
     return text.str();
 }

@@ -34,8 +34,7 @@ double difference(const World& a, const World& b, const Transform& back = {})
         note(m.rim_velocity, back.turn.determinant() * (back.turn.transpose() * n.rim_velocity) / speed);
     }
     for (std::size_t k = 0; k < a.state.pistons.size(); ++k)
-        note(a.state.pistons[k].velocity,
-            back.turn.transpose() * (b.state.pistons[k].velocity - back.boost) / speed);
+        note(a.state.pistons[k].velocity, back.turn.transpose() * (b.state.pistons[k].velocity - back.boost) / speed);
     return largest;
 }
 
@@ -64,8 +63,8 @@ double loosened(const RandomWorld& own, const StepReport& report)
 }
 
 /// Whether rounding decides if something is an impact, METHOD (4): it approaches as fast as the slowest one, as does
-/// exactly what falls from rest for three steps; or it comes to touch when the step ends, as does what comes back from an
-/// elastic impact.
+/// exactly what falls from rest for three steps; or it comes to touch when the step ends, as does what comes back from
+/// an elastic impact.
 bool is_at_threshold(const World& world, double h)
 {
     const Model& model = world.model;
@@ -90,7 +89,8 @@ Verdict perturbed_a_little(std::uint64_t seed, const Wish& wish)
     world.model.solver.tolerance = 1e-13;
     if (is_at_threshold(world, at.h)) return {Verdict::Outcome::left_out};
     const double largest = largest_velocity(world);
-    const double way = std::min(world.model.min_diameter, 100 * at.h * largest); // of positions, which /h are velocities
+    const double way =
+        std::min(world.model.min_diameter, 100 * at.h * largest); // of positions, which /h are velocities
     const World before = world;
     World other = world;
     Draw draw(~seed);
