@@ -16,7 +16,10 @@ class Draw
 public:
     explicit Draw(std::uint64_t seed) : state_(mixed(seed ^ 0x632be59bd9b4e019U)) {}
 
-    double uniform(double from, double to) { return from + (to - from) * 0x1.0p-53 * static_cast<double>(next() >> 11); }
+    double uniform(double from, double to)
+    {
+        return from + (to - from) * 0x1.0p-53 * static_cast<double>(next() >> 11);
+    }
     /// Its logarithm is uniform.
     double log_uniform(double from, double to) { return std::exp(uniform(std::log(from), std::log(to))); }
     bool chance(double probability) { return uniform(0, 1) < probability; }

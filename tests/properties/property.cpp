@@ -20,9 +20,9 @@ namespace talus::test
 namespace
 {
 
-constexpr std::uint64_t noted_every = 500;  ///< worlds
-constexpr std::size_t most_kept = 200;      ///< seeds
-constexpr double most_unsolved = 0.01;      ///< share
+constexpr std::uint64_t noted_every = 500; ///< worlds
+constexpr std::size_t most_kept = 200;     ///< seeds
+constexpr double most_unsolved = 0.01;     ///< share
 
 std::string environment(const char* name, const std::string& otherwise)
 {
@@ -32,7 +32,7 @@ std::string environment(const char* name, const std::string& otherwise)
 
 struct Tally {
     std::uint64_t looked_at = 0, holds = 0, fails = 0, unsolved = 0, no_room = 0, left_out = 0, must_solve = 0;
-    double largest = -1e300; ///< measure …
+    double largest = -1e300;      ///< measure …
     std::uint64_t largest_of = 0; ///< … and the seed of that world
     std::vector<std::uint64_t> failed, not_solved;
 
@@ -40,7 +40,9 @@ struct Tally {
     {
         ++looked_at;
         switch (verdict.outcome) {
-        case Verdict::Outcome::holds: ++holds; break;
+        case Verdict::Outcome::holds:
+            ++holds;
+            break;
         case Verdict::Outcome::fails:
             ++fails;
             if (failed.size() < most_kept) failed.push_back(seed);
@@ -50,8 +52,12 @@ struct Tally {
             must_solve += verdict.must_solve;
             if (not_solved.size() < most_kept) not_solved.push_back(seed);
             break;
-        case Verdict::Outcome::no_room: ++no_room; break;
-        case Verdict::Outcome::left_out: ++left_out; break;
+        case Verdict::Outcome::no_room:
+            ++no_room;
+            break;
+        case Verdict::Outcome::left_out:
+            ++left_out;
+            break;
         }
         const bool counts = verdict.outcome == Verdict::Outcome::holds || verdict.outcome == Verdict::Outcome::fails;
         if (counts && verdict.measure > largest) {
@@ -149,10 +155,11 @@ Verdict checked(const Check& check, std::uint64_t seed)
 
 } // namespace
 
-void hold(const std::string& name, const Check& check)
+void hold(const std::string& name, const Check& check, double share)
 {
     omp_set_num_threads(1); // a second one brings nothing to so small worlds
-    const std::uint64_t count = std::stoull(environment("TALUS_PROPERTIES_COUNT", "1000"));
+    const double asked = std::stod(environment("TALUS_PROPERTIES_COUNT", "1000"));
+    const auto count = static_cast<std::uint64_t>(std::ceil(share * asked));
     const std::uint64_t first = std::stoull(environment("TALUS_PROPERTIES_SEED", "1"));
     const Notes notes(name, first);
     Tally tally = notes.read();
@@ -163,8 +170,7 @@ void hold(const std::string& name, const Check& check)
         const Verdict verdict = checked(check, seed);
         tally.add(seed, verdict);
         if (verdict.outcome == Verdict::Outcome::fails && told++ < most_told) std::cout << verdict.why << std::endl;
-        if (verdict.outcome == Verdict::Outcome::unsolved && told++ < most_told)
-            std::cout << verdict.why << std::endl;
+        if (verdict.outcome == Verdict::Outcome::unsolved && told++ < most_told) std::cout << verdict.why << std::endl;
         if (tally.looked_at % noted_every == 0) notes.write(tally);
     }
     notes.write(tally);

@@ -15,7 +15,7 @@ namespace talus::test
 namespace
 {
 
-constexpr double r0 = standard_radius; ///< of the largest spheres
+constexpr double r0 = standard_radius;   ///< of the largest spheres
 constexpr double allowed_overlap = 0.02; ///< of what was not asked to touch, in smallest diameters
 constexpr int max_sweeps = 100'000, warm_up_sweeps = 3000;
 
@@ -84,7 +84,10 @@ private:
         spread_ = d_max_;
     }
 
-    double draw_restitution() { return draw_.one_of({0.0, 0.0, 1.0, 0.9, 0.5, draw_.uniform(0, 1), draw_.uniform(0, 1)}); }
+    double draw_restitution()
+    {
+        return draw_.one_of({0.0, 0.0, 1.0, 0.9, 0.5, draw_.uniform(0, 1), draw_.uniform(0, 1)});
+    }
 
     void draw_laws()
     {
@@ -108,7 +111,7 @@ private:
         const bool push = draw_.chance(0.7), at_once = draw_.chance(0.1);
         world_.model.solver.push_out_speed = !wish_.push_out.value_or(push) ? 0.0
                                              : at_once                      ? infinity
-                                                       : automatic_push_out_speed(d_max_);
+                                                                            : automatic_push_out_speed(d_max_);
         made_.warm_up_tolerance = draw_.one_of({1e-2, 1e-4, 1e-12});
         tell(name_of(law), ", e ", spheres.restitution, ", at walls ", walls.restitution, ", mu ", spheres.friction,
             ", k ", spheres.stiffness, " N/m, gravity ", told(world_.model.gravity), ", h ", h_, " s, p ",
@@ -153,7 +156,8 @@ private:
 
     void add_plane(const Vec3& point, const Vec3& normal)
     {
-        add_wall(line("plane through ", told(point, d_min_), " d, normal ", told(normal)), Plane{point, normal}, normal);
+        add_wall(
+            line("plane through ", told(point, d_min_), " d, normal ", told(normal)), Plane{point, normal}, normal);
     }
 
     Vec3 tilted(const Vec3& axis)
@@ -171,7 +175,9 @@ private:
         middle_ = d * z;
         if (wish_.press) return close_in();
         switch (draw_.one_of({0, 1, 1, 1, 2, 2, 3, 3, 4, 5, 5, 6, 6, 7, 8})) {
-        case 0: middle_.setZero(); return;
+        case 0:
+            middle_.setZero();
+            return;
         case 1:
             add_plane(Vec3::Zero(), tilted(z));
             has_up_ = true;
@@ -206,9 +212,10 @@ private:
         }
         case 6: {
             const double fold = draw_.one_of({0.0, 0.0, draw_.uniform(-2, 2)});
-            const Mesh mesh = make_mesh({{0, -3 * d, 0}, {0, 3 * d, 0}, {4 * d, 0, 0}, {-4 * d, 0, fold * d}},
-                {{{0, 2, 1}}, {{0, 1, 3}}});
-            add_wall(line("mesh of two triangles, joined along y, the one at x < 0 rises to ", fold, " d_max"), mesh, z);
+            const Mesh mesh = make_mesh(
+                {{0, -3 * d, 0}, {0, 3 * d, 0}, {4 * d, 0, 0}, {-4 * d, 0, fold * d}}, {{{0, 2, 1}}, {{0, 1, 3}}});
+            add_wall(
+                line("mesh of two triangles, joined along y, the one at x < 0 rises to ", fold, " d_max"), mesh, z);
             spread_ = 0.5 * d;
             has_up_ = true;
             return;
@@ -238,7 +245,8 @@ private:
         tell("wall 0: plane z = 0; wall 1: at z = ", height / d_min_, " d, normal ", told(down), ", comes down with ",
             speed, " m/s");
         world_.add_plane(Vec3::Zero(), z);
-        const Shape above = draw_.chance(0.6) ? Shape(Plane{height * z, down}) : Shape(Disk{height * z, down, d_max_, 0.0});
+        const Shape above =
+            draw_.chance(0.6) ? Shape(Plane{height * z, down}) : Shape(Disk{height * z, down, d_max_, 0.0});
         world_.add_wall(above, {Translation{{0.0, d_max_ * draw_.uniform(0.5, 2) / speed}, -speed * z}});
         if (draw_.chance(0.3)) {
             tell("wall 2: a tube round the z axis of radius ", 1.5 * d_max_ / d_min_, " d");
@@ -322,12 +330,15 @@ private:
     void stack()
     {
         const auto walls = world_.placed_walls();
-        const Vec3 axis = draw_.chance(0.6) ? Vec3::UnitZ() : Vec3((Vec3::UnitZ() + 0.2 * draw_.direction()).normalized());
-        const auto count = static_cast<std::size_t>(draw_.integer(1, static_cast<int>(std::min<std::size_t>(4, radius_.size()))));
+        const Vec3 axis =
+            draw_.chance(0.6) ? Vec3::UnitZ() : Vec3((Vec3::UnitZ() + 0.2 * draw_.direction()).normalized());
+        const auto count =
+            static_cast<std::size_t>(draw_.integer(1, static_cast<int>(std::min<std::size_t>(4, radius_.size()))));
         Vec3 x = middle_;
         for (int round = 0; round < 50; ++round) {
             double least = infinity;
-            for (std::size_t w = 0; w < walls.size(); ++w) least = std::min(least, nearest(w, x, radius_[0], walls).second);
+            for (std::size_t w = 0; w < walls.size(); ++w)
+                least = std::min(least, nearest(w, x, radius_[0], walls).second);
             x.z() -= least;
         }
         x.z() += draw_gap();
@@ -369,12 +380,12 @@ private:
         const double mass = std::min(draw_.log_uniform(0.3, 30) * most, 1000 * least);
         const double load = draw_.one_of({0.0, draw_.log_uniform(0.1, 30) * mass * standard_gravity});
         const Disk plate{center, axis, radius, 0.0};
-        const std::size_t index = load == 0.0 ? world_.add_piston(plate, mass, -axis)
-                                              : world_.add_piston(plate, mass, -axis, {{0.0, load}});
+        const std::size_t index =
+            load == 0.0 ? world_.add_piston(plate, mass, -axis) : world_.add_piston(plate, mass, -axis, {{0.0, load}});
         const double speed = draw_.one_of({0.0, draw_.uniform(-0.1, 0.1), draw_.uniform(0, 0.01)}) * d_min_ / h_;
         world_.state.pistons[index].velocity = -speed * axis;
-        tell("wall ", world_.model.walls.size() - 1, ": piston, a round plate of radius ", radius / d_min_,
-            " d round ", told(center, d_min_), " d, guide ", told(-axis), ", ", mass, " kg, load ", load,
+        tell("wall ", world_.model.walls.size() - 1, ": piston, a round plate of radius ", radius / d_min_, " d round ",
+            told(center, d_min_), " d, guide ", told(-axis), ", ", mass, " kg, load ", load,
             " N, moves along the guide with ", speed, " m/s");
     }
 
@@ -480,8 +491,7 @@ double largest_velocity(const World& world)
     const Model& model = world.model;
     const double h = model.time_step;
     double largest = std::max(h * model.gravity.norm(), 1e-3 * model.min_diameter / h);
-    for (const Motion& m : world.state.motion)
-        largest = std::max({largest, m.velocity.norm(), m.rim_velocity.norm()});
+    for (const Motion& m : world.state.motion) largest = std::max({largest, m.velocity.norm(), m.rim_velocity.norm()});
     for (const PistonState& piston : world.state.pistons) largest = std::max(largest, piston.velocity.norm());
     for (const Touch& touch : touches(world, h, model.min_diameter))
         largest = std::max(largest, touch.wall_velocity.norm());

@@ -25,9 +25,9 @@ struct Wish {
 struct RandomWorld {
     std::uint64_t seed = 0;
     World world;
-    std::vector<int> parts;                ///< sub-steps of each step before the one that is looked at, and of that one
-    std::vector<std::string> told;         ///< in words, a line each
-    double warm_up_tolerance = 1e-12;      ///< of the steps before
+    std::vector<int> parts;           ///< sub-steps of each step before the one that is looked at, and of that one
+    std::vector<std::string> told;    ///< in words, a line each
+    double warm_up_tolerance = 1e-12; ///< of the steps before
 
     bool is_frictionless() const { return !world.model.physics.friction; }
     /// Of the lightest and the heaviest body, pistons included.

@@ -15,8 +15,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double fastest_way_out = 30.0; ///< than the walls, that many times as fast: more is no room
-constexpr double parting = 1e-4; ///< with what all must be able to part [smallest diameters a step] …
+constexpr double fastest_way_out = 30.0;  ///< than the walls, that many times as fast: more is no room
+constexpr double parting = 1e-4;          ///< with what all must be able to part [smallest diameters a step] …
 constexpr double fastest_parting = 300.0; ///< … and how many times as fast spheres may be for that
 
 /// Whether all walls near the spheres leave one direction open, so that spreading them on that side parts them all.

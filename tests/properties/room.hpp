@@ -12,8 +12,8 @@ namespace talus::test
 
 /// A place where bodies touch, or will within a step, as geometry alone tells it.
 struct Touch {
-    std::size_t a = 0;  ///< sphere by storage index
-    std::size_t b = 0;  ///< sphere, or wall
+    std::size_t a = 0; ///< sphere by storage index
+    std::size_t b = 0; ///< sphere, or wall
     bool with_wall = false;
     Vec3 normal = Vec3::UnitZ(); ///< from b to a
     Vec3 wall_velocity = Vec3::Zero();
@@ -27,8 +27,8 @@ std::vector<Touch> touches(const World& world, double h, double within);
 Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 /// Whether some velocities of spheres and pistons keep all that touches from closing, and even part it with a
-/// ten-thousandth of a diameter in a step, none of them many times as fast as the walls that move as told: the least ones
-/// that do (ibid.). A sphere that fits exactly between two walls that stand still has none: rigid impulses may be
+/// ten-thousandth of a diameter in a step, none of them many times as fast as the walls that move as told: the least
+/// ones that do (ibid.). A sphere that fits exactly between two walls that stand still has none: rigid impulses may be
 /// anything there.
 bool has_room(const World& world, double h);
 

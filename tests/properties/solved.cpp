@@ -22,7 +22,7 @@ bool is_solved(const World& world, const StepReport& report)
     note(world.network.contacts.pistons);
     for (std::size_t i = 0; i < world.state.count(); ++i)
         momentum = std::max(momentum, world.state.mass(i) * world.state.motion[i].velocity.squaredNorm());
-    if (size == 0.0) return true; // the squares of the impulses are too small to be numbers
+    if (size < 1e-280) return true; // the squares of the impulses are too small to be numbers
     return report.solve.residual * report.solve.residual * size <= digits * digits * momentum;
 }
 
@@ -30,7 +30,8 @@ std::string told_unsolved(const RandomWorld& own, const StepReport& report)
 {
     std::ostringstream text;
     text << "world " << own.seed << " is not solved: residual " << report.solve.residual << " after "
-         << report.solve.sweeps << " sweeps, masses 1 : " << own.mass_ratio() << (own.is_frictionless() ? "" : ", friction") << '\n'
+         << report.solve.sweeps << " sweeps, masses 1 : " << own.mass_ratio()
+         << (own.is_frictionless() ? "" : ", friction") << '\n'
          << picture(own);
     return text.str();
 }

@@ -2,6 +2,7 @@
 #include "tests/properties/draw.hpp"
 #include "tests/properties/property.hpp"
 #include "tests/properties/random_world.hpp"
+#include "tests/properties/room.hpp"
 #include "tests/properties/solved.hpp"
 #include "tests/properties/transformed.hpp"
 
@@ -33,8 +34,7 @@ double difference(const World& a, const World& b, const Transform& back = {})
         note(m.rim_velocity, back.turn.determinant() * (back.turn.transpose() * n.rim_velocity) / speed);
     }
     for (std::size_t k = 0; k < a.state.pistons.size(); ++k)
-        note(a.state.pistons[k].velocity,
-            back.turn.transpose() * (b.state.pistons[k].velocity - back.boost) / speed);
+        note(a.state.pistons[k].velocity, back.turn.transpose() * (b.state.pistons[k].velocity - back.boost) / speed);
     return largest;
 }
 
@@ -55,10 +55,30 @@ Ready ready(std::uint64_t seed, const Wish& wish)
     return ready;
 }
 
-/// ε of the sweeps says little about velocities where masses differ much.
+/// ε of the sweeps says little about velocities where masses differ much; and not all come to 1e-13, but to 1e-12.
 double loosened(const RandomWorld& own, const StepReport& report)
 {
+    if (!report.solve.converged) return 10.0;
     return own.mass_ratio() <= 30.0 ? 1.0 : std::max(1.0, 0.01 * report.solve.sweeps);
+}
+
+/// Whether rounding decides if something is an impact, METHOD (4): it approaches as fast as the slowest one, as does
+/// exactly what falls from rest for three steps; or it comes to touch when the step ends, as does what comes back from
+/// an elastic impact.
+bool is_at_threshold(const World& world, double h)
+{
+    const Model& model = world.model;
+    const double slowest = model.solver.restitution_threshold * model.time_step * model.gravity.norm();
+    const double largest = largest_velocity(world);
+    const auto near = touches(world, h, 0.5 * model.min_diameter);
+    return std::ranges::any_of(near, [&](const Touch& touch) {
+        Vec3 u = world.state.motion[touch.a].velocity - touch.wall_velocity;
+        if (!touch.with_wall) u -= world.state.motion[touch.b].velocity;
+        const double u_n = u.dot(touch.normal);
+        const double ahead = u_n + (touch.with_wall ? h * model.gravity.dot(touch.normal) : 0.0);
+        return (slowest > 0.0 && std::abs(u_n + slowest) < 1e-12 * largest) ||
+               (touch.gap > 0.0 && ahead < 0.0 && std::abs(touch.gap + h * ahead) < 1e-12 * model.min_diameter);
+    });
 }
 
 Verdict perturbed_a_little(std::uint64_t seed, const Wish& wish)
@@ -67,12 +87,15 @@ Verdict perturbed_a_little(std::uint64_t seed, const Wish& wish)
     if (!at.room) return {Verdict::Outcome::no_room};
     World& world = at.own.world;
     world.model.solver.tolerance = 1e-13;
-    const double largest = largest_velocity(world), d = world.model.min_diameter;
+    if (is_at_threshold(world, at.h)) return {Verdict::Outcome::left_out};
+    const double largest = largest_velocity(world);
+    const double way =
+        std::min(world.model.min_diameter, 100 * at.h * largest); // of positions, which /h are velocities
     const World before = world;
     World other = world;
     Draw draw(~seed);
     for (std::size_t i = 0; i < other.state.count(); ++i) {
-        other.state.position[i] += perturbation * d * draw.in_cube();
+        other.state.position[i] += perturbation * way * draw.in_cube();
         other.state.motion[i].velocity += perturbation * largest * draw.in_cube();
         if (world.model.physics.spin) other.state.motion[i].rim_velocity += perturbation * largest * draw.in_cube();
     }
@@ -124,6 +147,7 @@ Verdict seen_otherwise(std::uint64_t seed, const Wish& wish)
 {
     Ready at = ready(seed, wish);
     if (!at.room) return {Verdict::Outcome::no_room};
+    if (is_at_threshold(at.own.world, at.h)) return {Verdict::Outcome::left_out};
     at.own.world.model.solver.tolerance = 1e-13;
     const World before = transformed(at.own.world, {}, at.h);
     World world = before;
@@ -147,7 +171,7 @@ Verdict seen_otherwise(std::uint64_t seed, const Wish& wish)
         }
         const double apart = difference(world, other, view.transform) / largest;
         verdict.measure = std::max(verdict.measure, apart);
-        if (apart <= equal * loosened(at.own, world.report)) continue;
+        if (apart <= equal * std::max(loosened(at.own, world.report), loosened(at.own, other.report))) continue;
         why << view.name << ": differs by " << apart << " of the largest velocity, sweeps " << world.report.solve.sweeps
             << " and " << other.report.solve.sweeps << '\n';
         tables += std::string("  contacts when it is ") + view.name + ":\n" + contact_table(other_before, at.parts);

@@ -98,7 +98,8 @@ private:
         WallMotion motion;
         std::string how = " that stands still";
         switch (draw_.integer(0, 4)) {
-        case 0: break;
+        case 0:
+            break;
         case 1:
             motion = {Translation{{}, speed * draw_.direction()}};
             how = " that moves";
@@ -119,12 +120,18 @@ private:
         }
         }
         switch (draw_.integer(0, 3)) {
-        case 0: to.add_wall(Plane{place, normal}, how == " that turns" ? WallMotion{} : motion); return "a plane" + how;
-        case 1: to.add_wall(Panels{{{place - 0.5 * a - 0.5 * b, a, b}}}, motion); return "a panel" + how;
+        case 0:
+            to.add_wall(Plane{place, normal}, how == " that turns" ? WallMotion{} : motion);
+            return "a plane" + how;
+        case 1:
+            to.add_wall(Panels{{{place - 0.5 * a - 0.5 * b, a, b}}}, motion);
+            return "a panel" + how;
         case 2:
             to.add_wall(make_mesh({place - a, place + a, place + b, place - b}, {{{0, 1, 2}}, {{0, 3, 1}}}), motion);
             return "a mesh" + how;
-        default: to.add_wall(Disk{place, normal, size, 0.0}, motion); return "a plate" + how;
+        default:
+            to.add_wall(Disk{place, normal, size, 0.0}, motion);
+            return "a plate" + how;
         }
     }
 };
@@ -214,11 +221,12 @@ Verdict unmoved_by_what_is_far(std::uint64_t seed)
     const double allowed = std::max(1e-9, 1e-11 * own.world.report.solve.sweeps);
     if (differs <= allowed) return {Verdict::Outcome::holds, {}, differs};
     std::ostringstream why;
-    why << "with " << what << " far away, by the stopping rule: velocities differ by " << differs << " of the largest\n";
+    why << "with " << what << " far away, by the stopping rule: velocities differ by " << differs
+        << " of the largest\n";
     own.world = before;
     own.parts.push_back(1);
-    return {
-        Verdict::Outcome::fails, why.str() + picture(own) + "  and with it:\n" + contact_table(with_before, 1), differs};
+    return {Verdict::Outcome::fails, why.str() + picture(own) + "  and with it:\n" + contact_table(with_before, 1),
+        differs};
 }
 
 /// What a step makes of a contact.
@@ -260,6 +268,7 @@ Verdict ruled_alike_in_parts(std::uint64_t seed)
     if (!warm_up(own)) return {Verdict::Outcome::no_room};
     const World& world = own.world;
     const double d = world.model.min_diameter, h = world.model.time_step, p = world.model.solver.push_out_speed;
+    const double largest = largest_velocity(world);
     const int parts = Draw(~seed).integer(2, 10);
     const Laws whole = laws_of(world, 1), split = laws_of(world, parts);
     std::ostringstream why;
@@ -272,10 +281,9 @@ Verdict ruled_alike_in_parts(std::uint64_t seed)
     const auto is_bystander = [&](const auto& key) {
         return whole.met.contains(std::get<0>(key)) || (!std::get<2>(key) && whole.met.contains(std::get<1>(key)));
     };
-    const double fastest = 2.0 * largest_velocity(world);
+    const double fastest = 2.0 * largest;
     // By which the target of a blow changes where it is seen from another instant of the step.
-    double turn = 0.0;
-    for (const Motion& m : world.state.motion) turn = std::max(turn, 8.0 * h / d * m.velocity.squaredNorm());
+    const double turn = 8.0 * h / d * largest * largest;
     for (const auto& [key, law] : whole) {
         if (law.gap > -clearly * d || is_bystander(key)) continue;
         const auto found = split.find(key);
@@ -287,13 +295,14 @@ Verdict ruled_alike_in_parts(std::uint64_t seed)
         if (law.kind != other.kind) why << name(key) << " is of another kind in parts\n";
         const double kappa = std::max(0.0, law.compression), other_kappa = std::max(0.0, other.compression);
         if (std::abs(kappa - other_kappa) > 1.000001 * p * h + 1e-6 * kappa + h * fastest)
-            why << name(key) << " has kappa " << law.compression / d << " d, in parts " << other.compression / d << " d\n";
-        if (law.kind == ContactKind::impact && other.kind == law.kind &&
-            std::abs(law.target - other.target) > turn)
+            why << name(key) << " has kappa " << law.compression / d << " d, in parts " << other.compression / d
+                << " d\n";
+        if (law.kind == ContactKind::impact && other.kind == law.kind && std::abs(law.target - other.target) > turn)
             why << name(key) << " has target " << law.target << " m/s, in parts " << other.target << " m/s\n";
     }
     for (const auto& [key, law] : split)
-        if (law.gap <= -clearly * d && !is_bystander(key) && !whole.contains(key)) why << name(key) << " is there in parts only\n";
+        if (law.gap <= -clearly * d && !is_bystander(key) && !whole.contains(key))
+            why << name(key) << " is there in parts only\n";
     if (why.str().empty()) return {};
     return {Verdict::Outcome::fails, "in " + std::to_string(parts) + " parts:\n" + why.str() + picture(own) +
                                          "  and in parts:\n" + contact_table(world, parts)};
@@ -301,7 +310,8 @@ Verdict ruled_alike_in_parts(std::uint64_t seed)
 
 } // namespace
 
-TEST_CASE("P2 what is far away changes no bit of a step, and by the stopping rule no more than its tolerance", "[locality]")
+TEST_CASE(
+    "P2 what is far away changes no bit of a step, and by the stopping rule no more than its tolerance", "[locality]")
 {
     hold("locality", unmoved_by_what_is_far);
 }

@@ -43,36 +43,38 @@ private:
     Shape shape(const Shape& old, const Vec3& shift) const
     {
         const auto place = [&](const Vec3& x) { return Vec3(t_.place(x) + shift); };
-        return std::visit(Overloaded{
-                              [&](const Plane& s) -> Shape { return Plane{place(s.point), t_.arrow(s.normal)}; },
-                              [&](const Cylinder& s) -> Shape {
-                                  return Cylinder{place(s.base), t_.arrow(s.axis), t_.length * s.radius, t_.length * s.height};
-                              },
-                              [&](const Cone& s) -> Shape {
-                                  return Cone{place(s.base), t_.arrow(s.axis), t_.length * s.base_radius,
-                                      t_.length * s.top_radius, t_.length * s.height};
-                              },
-                              [&](const Disk& s) -> Shape {
-                                  return Disk{place(s.center), t_.arrow(s.normal), t_.length * s.radius, t_.length * s.hole_radius};
-                              },
-                              [&](const Panels& s) -> Shape {
-                                  Panels panels;
-                                  for (const Panels::Rectangle& r : s.rectangles)
-                                      panels.rectangles.push_back({place(r.corner), Vec3(t_.length * t_.arrow(r.edge_a)),
-                                          Vec3(t_.length * t_.arrow(r.edge_b))});
-                                  return panels;
-                              },
-                              [&](const Mesh& s) -> Shape {
-                                  std::vector<Vec3> vertices;
-                                  for (const Vec3& x : s.vertices) vertices.push_back(place(x));
-                                  return make_mesh(vertices, s.triangles);
-                              },
-                              [&](const Grains& s) -> Shape {
-                                  Grains grains{{}, t_.length * s.radius};
-                                  for (const Vec3& x : s.centers) grains.centers.push_back(place(x));
-                                  std::ranges::sort(grains.centers, {}, [](const Vec3& x) { return x.x(); });
-                                  return grains;
-                              }},
+        return std::visit(
+            Overloaded{[&](const Plane& s) -> Shape {
+                           return Plane{place(s.point), t_.arrow(s.normal)};
+                       },
+                [&](const Cylinder& s) -> Shape {
+                    return Cylinder{place(s.base), t_.arrow(s.axis), t_.length * s.radius, t_.length * s.height};
+                },
+                [&](const Cone& s) -> Shape {
+                    return Cone{place(s.base), t_.arrow(s.axis), t_.length * s.base_radius, t_.length * s.top_radius,
+                        t_.length * s.height};
+                },
+                [&](const Disk& s) -> Shape {
+                    return Disk{place(s.center), t_.arrow(s.normal), t_.length * s.radius, t_.length * s.hole_radius};
+                },
+                [&](const Panels& s) -> Shape {
+                    Panels panels;
+                    for (const Panels::Rectangle& r : s.rectangles)
+                        panels.rectangles.push_back({place(r.corner), Vec3(t_.length * t_.arrow(r.edge_a)),
+                            Vec3(t_.length * t_.arrow(r.edge_b))});
+                    return panels;
+                },
+                [&](const Mesh& s) -> Shape {
+                    std::vector<Vec3> vertices;
+                    for (const Vec3& x : s.vertices) vertices.push_back(place(x));
+                    return make_mesh(vertices, s.triangles);
+                },
+                [&](const Grains& s) -> Shape {
+                    Grains grains{{}, t_.length * s.radius};
+                    for (const Vec3& x : s.centers) grains.centers.push_back(place(x));
+                    std::ranges::sort(grains.centers, {}, [](const Vec3& x) { return x.x(); });
+                    return grains;
+                }},
             old);
     }
 
@@ -80,22 +82,22 @@ private:
 
     MotionPart part(const MotionPart& old) const
     {
-        return std::visit(Overloaded{
-                              [&](const Translation& m) -> MotionPart {
-                                  return Translation{span(m.span), Vec3(speed() * t_.arrow(m.velocity))};
-                              },
-                              [&](const Turning& m) -> MotionPart {
-                                  return Turning{span(m.span), t_.place(m.point), t_.axis(m.axis), m.rate / t_.time};
-                              },
-                              [&](const Shaking& m) -> MotionPart {
-                                  return Shaking{span(m.span), Vec3(t_.length * t_.arrow(m.amplitude)), m.frequency / t_.time};
-                              },
-                              [&](const Course& m) -> MotionPart {
-                                  Course course;
-                                  for (const Course::Waypoint& w : m.waypoints)
-                                      course.waypoints.push_back({t_.time * w.time, Vec3(t_.length * t_.arrow(w.shift))});
-                                  return course;
-                              }},
+        return std::visit(
+            Overloaded{[&](const Translation& m) -> MotionPart {
+                           return Translation{span(m.span), Vec3(speed() * t_.arrow(m.velocity))};
+                       },
+                [&](const Turning& m) -> MotionPart {
+                    return Turning{span(m.span), t_.place(m.point), t_.axis(m.axis), m.rate / t_.time};
+                },
+                [&](const Shaking& m) -> MotionPart {
+                    return Shaking{span(m.span), Vec3(t_.length * t_.arrow(m.amplitude)), m.frequency / t_.time};
+                },
+                [&](const Course& m) -> MotionPart {
+                    Course course;
+                    for (const Course::Waypoint& w : m.waypoints)
+                        course.waypoints.push_back({t_.time * w.time, Vec3(t_.length * t_.arrow(w.shift))});
+                    return course;
+                }},
             old);
     }
 

@@ -12,7 +12,7 @@ struct Transform {
     Vec3 shift = Vec3::Zero();
     Vec3 boost = Vec3::Zero(); ///< added to all velocities; where nothing turns, and pistons go along it
     double length = 1.0, time = 1.0, mass = 1.0; ///< best powers of two: κ is kept in few digits
-    bool reversed = false; ///< the order of the spheres in store, and so that of the sweeps
+    bool reversed = false;                       ///< the order of the spheres in store, and so that of the sweeps
 
     Vec3 place(const Vec3& x) const { return length * (turn * x) + shift; }
     Vec3 arrow(const Vec3& v) const { return turn * v; }
