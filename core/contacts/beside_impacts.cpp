@@ -77,11 +77,12 @@ private:
         const ContactGeometry own = contacts_.geometry(k);
         if (own.kind == ContactKind::impact) return false;
         const SphereImpacts &a = impacts_[contacts_.a(k)], &b = with_walls_ ? a : impacts_[contacts_.b(k)];
-        const double impact = std::max(a.size, b.size), load = contacts_.impulse(k).dot(contacts_.normal(k));
+        const double impact = std::max(a.size, b.size), carried = contacts_.impulse(k).dot(contacts_.normal(k));
+        const double load = step.parts * carried;
         const bool is_loaded = load >= load_share * impact, was_impact = own.touch.was_impact();
         const bool parts = was_impact && u_n > touching_gap * step.min_diameter / step.h; // but for rounding
         // What impacts press on beside them is no load that a contact may count on, but what its spheres bore.
-        const double hands_on = std::max({load, a.load, b.load});
+        const double hands_on = std::max({carried, a.load, b.load});
         if (!is_loaded && !was_impact)
             contacts_.set_law(k, ContactKind::deferred, deferred_target(own.gap, u_n, step), -INFINITY, 0.0);
         else if (parts || (is_loaded && load < light_share * impact))

@@ -69,7 +69,7 @@ template <class N> struct ContactEvent {
     N inverse_mass_sum; ///< W [1/kg]
     N restitution;      ///< e
     N stiffness;        ///< k [N/m]
-    N load;             ///< λ_n of the step before [N s] …
+    N load;             ///< λ_n that the step before would have had, had it been whole [N s] …
     N compression;      ///< … and the κ that it has left [m]
 };
 

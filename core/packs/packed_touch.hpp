@@ -152,7 +152,7 @@ template <int width>
     const N w = number(contact.inverse_mass_sum), arm_scale = number(contact.arm_scale);
     const F pushed = load_flags<width>(touch.pushed + first);
     const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.u_n), number(touch.closes), w, number(touch.restitution),
-        number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)), number(touch.compression)};
+        number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts, number(touch.compression)};
     const F closes = is_impact<N>(event, step.law), impact = closes & within_reach;
     const NormalLaw<N> law = normal_law<N>(event, impact, step.law);
     const Vector<width> warm = warm_impulse<width>(carried, normal, number(contact.friction), impact);
