@@ -121,7 +121,8 @@ double stand_beside_impacts(ContactNetwork& network, const State& state, const M
             const double of_spheres = spheres(tile).settle(
                 step, [&](std::size_t k) { return state.motion[between.b(k)].velocity; });
             const double of_walls = walls(tile).settle(step, [&](std::size_t k) {
-                return at_walls.has_moving_walls() ? at_walls.wall(k).velocity : Vec3::Zero().eval();
+                return at_walls.has_moving_walls() ? Vec3(at_walls.wall(k).velocity - at_walls.wall(k).gain * at_walls.normal(k))
+                                                  : Vec3::Zero().eval();
             });
             ratio = std::max({ratio, of_spheres, of_walls});
         }

@@ -43,6 +43,7 @@ struct RollingRow {
 struct WallRow {
     Vec3 velocity = Vec3::Zero(); ///< of its material at x − r n [m/s]
     Vec3 spin = Vec3::Zero();     ///< [rad/s]
+    double gain = 0.0;            ///< by how much its velocity along n has grown since the step before [m/s]
 };
 
 /// What one step knows of a contact besides its solve.

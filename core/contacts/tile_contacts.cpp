@@ -129,6 +129,7 @@ void TileContacts::set_wall(std::size_t k, const WallRow& row)
 {
     put(wall_[k / pack_size].velocity, k % pack_size, row.velocity);
     put(wall_[k / pack_size].spin, k % pack_size, row.spin);
+    wall_[k / pack_size].gain[k % pack_size] = row.gain;
 }
 
 PackSpan TileContacts::span()
@@ -168,7 +169,8 @@ RollingRow TileContacts::rolling(std::size_t k) const
 
 WallRow TileContacts::wall(std::size_t k) const
 {
-    return {get(wall_[k / pack_size].velocity, k % pack_size), get(wall_[k / pack_size].spin, k % pack_size)};
+    return {get(wall_[k / pack_size].velocity, k % pack_size), get(wall_[k / pack_size].spin, k % pack_size),
+        wall_[k / pack_size].gain[k % pack_size]};
 }
 
 } // namespace talus

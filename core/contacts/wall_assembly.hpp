@@ -17,7 +17,7 @@ namespace talus
 struct WallTouch {
     std::int32_t sphere, wall;
     Vec3 normal;
-    double gap, u_n, closes;
+    double gap, u_n, u_n_before, closes;
     double inverse_mass_sum; ///< W
     std::uint32_t slot;
     double wall_level; ///< of ContactGeometry
@@ -52,10 +52,12 @@ public:
         const CarriedContact& carried = carried_.contact[at.slot];
         for (int d = 0; d < 3; ++d) touch_.carried[d][lane] = carried.impulse[d];
         touch_.compression[lane] = carried.compression;
+        touch_.struck[lane] = -static_cast<std::int64_t>(carried.touch.was_impact());
         touch_.pushed[lane] = -static_cast<std::int64_t>(carried.touch.was_open());
         touch_.gap[lane] = at.gap;
         touch_.diameter[lane] = 2.0 * state_.radius(at.sphere);
         touch_.u_n[lane] = at.u_n;
+        touch_.u_n_before[lane] = at.u_n_before;
         touch_.closes[lane] = at.closes;
         slot_[lane] = at.slot;
         wall_level_[lane] = at.wall_level;

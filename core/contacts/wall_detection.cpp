@@ -139,6 +139,7 @@ WallTouch WallDetection::touch(const WallMeeting& meeting, std::uint32_t slot) c
     const auto patch = static_cast<std::size_t>(meeting.at.patch);
     const WallRow row =
         wall.moves() ? WallRow{wall.velocity(patch, x - m.radius * n), wall.spin()} : WallRow{};
+    const double gain = wall.moves() ? n.dot(row.velocity - wall.velocity_before(patch, x - m.radius * n)) : 0.0;
     const double u_n = n.dot(m.velocity - row.velocity);
     const double u_n_ahead = u_n + step_.law.h * n.dot(model_.gravity) - n.dot(wall.gain());
     const double wall_inverse_mass = wall.is_piston() ? 1.0 / model_.pistons[wall.wall().piston].mass : 0.0;
@@ -148,11 +149,12 @@ WallTouch WallDetection::touch(const WallMeeting& meeting, std::uint32_t slot) c
         .normal = n,
         .gap = gap,
         .u_n = u_n,
+        .u_n_before = u_n + gain,
         .closes = u_n_ahead < 0.0 ? -gap / u_n_ahead : infinity,
         .inverse_mass_sum = m.inverse_mass + wall_inverse_mass,
         .slot = slot,
         .wall_level = n.dot(state_.position[pair.sphere]) - gap + way_ahead,
-        .row = row};
+        .row = {row.velocity, row.spin, gain}};
 }
 
 } // namespace talus

@@ -60,6 +60,7 @@ struct alignas(64) RollingPack {
 struct alignas(64) WallPack {
     double velocity[3][pack_size]; ///< [m/s]
     double spin[3][pack_size];     ///< [rad/s]
+    double gain[pack_size];        ///< of the velocity along n since the step before [m/s]
 };
 
 /// The packs of one tile as a sweep sees them.

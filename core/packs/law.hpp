@@ -29,8 +29,10 @@ inline constexpr double load_share = 1e-4;
 /// An impact below this share of a contact's load is light: the contact stays a spring beside it.
 inline constexpr double light_share = 0.1;
 
-/// A contact that overlaps more than this has no spring and yields; in diameters of its smaller sphere.
+/// A contact that overlaps more than this has no spring and yields; in diameters of its smaller sphere. One that its
+/// material makes softer than the sweeps would, yields at the same force, but at a quarter of a diameter.
 inline constexpr double yield_overlap = 0.03;
+inline constexpr double most_yield_overlap = 0.25;
 
 /// How near the centre the strength of a contact grows, in the same diameters.
 inline constexpr double least_rest = 0.01;
@@ -64,13 +66,15 @@ template <class N> struct NormalLaw {
 template <class N> struct ContactEvent {
     N gap;              ///< g [m]
     N diameter;         ///< of the smaller sphere [m]
-    N u_n;              ///< of v⁽⁰⁾, before gravity [m/s]
+    N u_n;              ///< of v⁽⁰⁾, before gravity [m/s] …
+    N u_n_before;       ///< … against the velocity that the wall had in the step before: 0 where a sphere goes with it
     N closes;           ///< when the gap does so, with v⁽¹⁾ [s]
     N inverse_mass_sum; ///< W [1/kg]
     N restitution;      ///< e
     N stiffness;        ///< k [N/m]
     N load;             ///< λ_n that the step before would have had, had it been whole [N s] …
     N compression;      ///< … and the κ that it has left [m]
+    Answer<N> struck;   ///< it was an impact then
 };
 
 template <class N> [[gnu::always_inline]] inline N smaller(const N& a, const N& b)
@@ -134,17 +138,19 @@ template <class N> [[gnu::always_inline]] inline N impact_size(const ContactEven
     return (1.0 + event.restitution) * larger<N>(N{}, -event.u_n) / event.inverse_mass_sum;
 }
 
-/// Whether a contact is so deep that it yields.
-template <class N> [[gnu::always_inline]] inline Answer<N> yields(const ContactEvent<N>& event)
+/// By how much a contact overlaps when it begins to yield [m]. @param compliance of its spring
+template <class N>
+[[gnu::always_inline]] inline N strength(const ContactEvent<N>& event, const N& compliance, const LawOfStep& step)
 {
-    return -event.gap > yield_overlap * event.diameter;
+    const N softness = compliance / (sigma_per_sweep / step.min_sweeps * event.inverse_mass_sum);
+    return event.diameter * smaller<N>(N{} + most_yield_overlap, yield_overlap * softness);
 }
 
-/// By how much stronger a contact is that overlaps more than where it begins to yield: none is as deep as the centre of
-/// its smaller sphere.
-template <class N> [[gnu::always_inline]] inline N strengthening(const ContactEvent<N>& event)
+/// By how much stronger a contact is that overlaps more than that: none is as deep as the centre of its smaller sphere.
+template <class N> [[gnu::always_inline]] inline N strengthening(const ContactEvent<N>& event, const N& deepest)
 {
-    const N rest = larger<N>(N{} + least_rest, 0.5 + event.gap / event.diameter), growth = (0.5 - yield_overlap) / rest;
+    const N rest = larger<N>(N{} + least_rest, 0.5 + event.gap / event.diameter);
+    const N growth = (0.5 - deepest / event.diameter) / rest;
     return growth * growth;
 }
 
@@ -154,7 +160,8 @@ template <class N>
 [[gnu::always_inline]] inline Answer<N> is_impact(const ContactEvent<N>& event, const LawOfStep& step)
 {
     const Answer<N> closes = touches<N>(event.gap, step) | (event.closes < N{} + step.h);
-    const Answer<N> unstopped = -event.gap > deferred_overlap * event.diameter;
+    const Answer<N> touched = touches<N>(event.gap, step);
+    const Answer<N> unstopped = (-event.gap > deferred_overlap * event.diameter) | (event.struck & touched);
     return (event.u_n < N{} - step.threshold_speed) & closes & (event.load < load_share * impact_size<N>(event)) &
            (!unstopped);
 }
@@ -171,24 +178,24 @@ template <class N>
 [[gnu::always_inline]] inline NormalLaw<N> normal_law(
     const ContactEvent<N>& event, const Answer<N>& impact, const LawOfStep& step)
 {
-    const N none = {}, infinite = none + __builtin_inf();
-    const N least = none + touching_gap * step.min_diameter, deepest = yield_overlap * event.diameter;
+    const N none = {}, infinite = none + __builtin_inf(), least = none + touching_gap * step.min_diameter;
     const N compliance = spring_compliance<N>(event.stiffness, event.inverse_mass_sum, step);
     const N share = step.parts > 1.0 ? feedback_share<N>(compliance, event.inverse_mass_sum, step) : none + 1.0;
     const N per_way = 4.0 * upsilon / step.h * share; // of feedback: the speed that it asks for, by κ
 
-    const Answer<N> open = event.gap > least, is_deep = yields<N>(event);
-    const Answer<N> rests = !(open | is_deep | impact);
+    const N deepest = strength<N>(event, compliance, step);
+    const Answer<N> open = event.gap > least, yields = -event.gap > deepest, rests = !(open | yields | impact);
     const N before = event.compression > least ? event.compression : none;
     const N kappa = smaller<N>(-event.gap, before + step.h * step.push_out_speed);
     const Answer<N> is_spring = step.rigid ? Answer<N>{} : rests & (before > 0.0);
-    const N yielding = smaller<N>(none + step.push_out_speed, per_way * deepest);
-    const N push = open ? -event.gap / step.h : (step.rigid ? none : (is_deep ? yielding : per_way * kappa));
+    const N pushing = smaller<N>(none + step.push_out_speed, -event.gap * per_way);
+    const N push = open ? -event.gap / step.h : (step.rigid ? none : (yields ? pushing : per_way * kappa));
 
-    const N target = impact ? -event.restitution * event.u_n : (is_spring ? push : passive_target<N>(push, event.u_n));
-    const Answer<N> keeps = step.rigid ? Answer<N>{} : is_spring | (rests & (event.u_n < least / step.h));
-    return {target, step.rigid ? none : (rests ? compliance : none),
-        (is_deep & !impact) ? strengthening<N>(event) * per_way * deepest / compliance : infinite, keeps ? kappa : -infinite};
+    const N alone = is_spring ? push : passive_target<N>(push, event.u_n_before);
+    const Answer<N> keeps = step.rigid ? Answer<N>{} : is_spring | (rests & (event.u_n_before < least / step.h));
+    return {impact ? -event.restitution * event.u_n : alone, step.rigid ? none : (rests ? compliance : none),
+        (yields & !impact) ? strengthening<N>(event, deepest) * per_way * deepest / compliance : infinite,
+        keeps ? kappa : -infinite};
 }
 
 /// A contact that had no load beside an impact of one of its spheres is deferred: it does not close further than to a

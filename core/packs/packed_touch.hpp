@@ -113,6 +113,7 @@ template <int width>
     store<width>(touch.gap + first, gap);
     store<width>(touch.diameter + first, 2.0 * smaller<Numbers<width>>(a[7], b[7]));
     store<width>(touch.u_n + first, u_n); // gravity is the same for both
+    store<width>(touch.u_n_before + first, u_n);
     store<width>(touch.closes + first, closes);
     return within & ~empty;
 }
@@ -151,8 +152,8 @@ template <int width>
     const Vector<width> carried = Vector<width>::load(touch.carried, first);
     const N w = number(contact.inverse_mass_sum), arm_scale = number(contact.arm_scale);
     const F pushed = load_flags<width>(touch.pushed + first);
-    const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.u_n), number(touch.closes), w, number(touch.restitution),
-        number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts, number(touch.compression)};
+    const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.u_n), number(touch.u_n_before), number(touch.closes), w, number(touch.restitution),
+        number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts, number(touch.compression), load_flags<width>(touch.struck + first)};
     const F closes = is_impact<N>(event, step.law), impact = closes & within_reach;
     const NormalLaw<N> law = normal_law<N>(event, impact, step.law);
     const Vector<width> warm = warm_impulse<width>(carried, normal, number(contact.friction), impact);
@@ -174,8 +175,8 @@ template <int width>
     const N spring = spring_compliance<N>(event.stiffness, w, step.law);
     const N least = none + touching_gap * step.law.min_diameter, before = smaller<N>(-event.gap, event.compression);
     const F keeps = within_reach & (law.compression > none), stored = keeps & (event.compression > least);
-    const N energy = spring_energy<N>(law.compression, event.u_n, spring, w, step.law);
-    const N energy_before = spring_energy<N>(before, event.u_n, spring, w, step.law);
+    const N energy = spring_energy<N>(law.compression, event.u_n_before, spring, w, step.law);
+    const N energy_before = spring_energy<N>(before, event.u_n_before, spring, w, step.law);
     const N pushed_alone = spring_energy<N>(law.compression, none, spring, w, step.law);
     put(touch.stored_energy, stored ? energy : (keeps ? pushed_alone : none));
     put(touch.push_out_energy, stored ? energy - energy_before : (keeps ? pushed_alone : none));
@@ -214,6 +215,7 @@ template <int width>
     const auto carried = CarriedRecords<width>::gather(slot, spheres.carried);
     carried.impulse.store(touch.carried, first);
     store<width>(touch.compression + first, carried.compression);
+    store<width>(touch.struck + first, carried.touch == std::int64_t{2});
     store<width>(touch.pushed + first, carried.touch == std::int64_t{5});
     narrow<width>(record.touch + first, carried.touch);
 }

@@ -13,42 +13,6 @@ namespace talus
 namespace
 {
 
-/// How many contacts a sphere has that may have an impulse, by sphere; counted for those that have an impact.
-class Meetings
-{
-public:
-    Meetings(const ContactNetwork& network, std::size_t spheres) : contacts_(network.contacts), count_(spheres)
-    {
-        count(contacts_.pistons, true);
-        with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
-            crew.color_by_color([&](std::size_t tile) {
-                count(contacts_.spheres[tile], false);
-                count(contacts_.walls[tile], true);
-            });
-        });
-    }
-
-    bool is_alone(std::int32_t sphere) const { return count_[sphere] == 1; }
-
-private:
-    const StepContacts& contacts_;
-    std::vector<std::int32_t> count_;
-
-    void count(const TileContacts& contacts, bool with_walls)
-    {
-        for (const std::size_t k : contacts.indices()) {
-            if (contacts.kind(k) == ContactKind::deferred) continue;
-            add(contacts.a(k));
-            if (!with_walls) add(contacts.b(k));
-        }
-    }
-
-    void add(std::int32_t sphere)
-    {
-        if (contacts_.impacts[sphere].size > 0.0) ++count_[sphere];
-    }
-};
-
 /// When two spheres touch, from now on; 0 where they do already.
 double meeting_instant(const Motion& a, const Motion& b, const Vec3& apart, double h)
 {
@@ -59,23 +23,96 @@ double meeting_instant(const Motion& a, const Motion& b, const Vec3& apart, doub
     return std::clamp(closes, 0.0, h);
 }
 
+/// What a sphere meets in this step.
+struct Meetings {
+    double instants = 0.0; ///< sum over its impacts with spheres [s]
+    int impacts = 0;       ///< with spheres
+    bool held = false;     ///< it has other contacts, or impacts with walls
+
+    bool meets_one() const { return impacts == 1 && !held; }
+    bool in_flight() const { return impacts > 0 && !held; }
+    double instant() const { return instants / impacts; }
+};
+
+/// Whether a contact may have an impulse that keeps a sphere from flying: not what is deferred, or parts after an impact.
+bool holds(const TileContacts& contacts, std::size_t k)
+{
+    const ContactKind kind = contacts.kind(k);
+    return kind != ContactKind::deferred && !(kind == ContactKind::bearing && contacts.geometry(k).touch.was_impact());
+}
+
+class MeetingSurvey
+{
+public:
+    std::vector<Meetings> of; ///< by sphere, of those that have an impact
+
+    MeetingSurvey(const ContactNetwork& network, const State& state, const Model& model, double h)
+        : of(state.count()), contacts_(network.contacts), state_(state), model_(model), h_(h)
+    {
+        hold(contacts_.pistons);
+        with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
+            crew.color_by_color([&](std::size_t tile) {
+                hold(contacts_.walls[tile]);
+                note(contacts_.spheres[tile]);
+            });
+            // Moved by one instant a pair keeps its potential energy; several that meet each other do not.
+            if (!model.gravity.isZero())
+                crew.color_by_color([&](std::size_t tile) { keep_pairs(contacts_.spheres[tile]); });
+        });
+    }
+
+private:
+    const StepContacts& contacts_;
+    const State& state_;
+    const Model& model_;
+    const double h_;
+
+    bool is_struck(std::int32_t sphere) const { return contacts_.impacts[sphere].size > 0.0; }
+
+    void hold(const TileContacts& walls)
+    {
+        for (const std::size_t k : walls.indices())
+            if (holds(walls, k)) of[walls.a(k)].held = true;
+    }
+
+    void note(const TileContacts& spheres)
+    {
+        for (const std::size_t k : spheres.indices()) {
+            const auto [a, b] = std::pair(spheres.a(k), spheres.b(k));
+            if ((!is_struck(a) && !is_struck(b)) || !holds(spheres, k)) continue;
+            if (spheres.kind(k) != ContactKind::impact) {
+                of[a].held = of[b].held = true;
+                continue;
+            }
+            const Vec3 apart = model_.periodicity.nearest_image(state_.position[a] - state_.position[b]);
+            const double instant = meeting_instant(state_.motion[a], state_.motion[b], apart, h_);
+            for (const std::int32_t sphere : {a, b}) {
+                ++of[sphere].impacts;
+                of[sphere].instants += instant;
+            }
+        }
+    }
+
+    void keep_pairs(const TileContacts& spheres)
+    {
+        for (const std::size_t k : spheres.indices()) {
+            if (spheres.kind(k) != ContactKind::impact) continue;
+            Meetings &a = of[spheres.a(k)], &b = of[spheres.b(k)];
+            if (!a.meets_one() || !b.meets_one()) a.held = b.held = true;
+        }
+    }
+};
+
 } // namespace
 
 std::vector<Flight> find_flights(const ContactNetwork& network, const State& state, const Model& model, double h)
 {
-    const Meetings meetings(network, state.count());
+    const MeetingSurvey meetings(network, state, model, h);
     std::vector<Flight> flights;
-    for (const TileContacts& contacts : network.contacts.spheres)
-        for (const std::size_t k : contacts.indices()) {
-            const auto [a, b] = std::pair(contacts.a(k), contacts.b(k));
-            if (contacts.kind(k) != ContactKind::impact || !meetings.is_alone(a) || !meetings.is_alone(b)) continue;
-            const Vec3 apart = model.periodicity.nearest_image(state.position[a] - state.position[b]);
-            const double instant = meeting_instant(state.motion[a], state.motion[b], apart, h);
-            if (instant > 0.0)
-                for (const std::int32_t sphere : {a, b})
-                    flights.push_back(
-                        {sphere, instant, instant * (state.motion[sphere].velocity + h * model.gravity)});
-        }
+    for (std::size_t i = 0; i < state.count(); ++i)
+        if (const Meetings& met = meetings.of[i]; met.in_flight() && met.instants > 0.0)
+            flights.push_back({static_cast<std::int32_t>(i), met.instant(),
+                met.instant() * (state.motion[i].velocity + h * model.gravity)});
     return flights;
 }
 

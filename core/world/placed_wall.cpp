@@ -41,12 +41,14 @@ PlacedWall::PlacedWall(const Wall& wall, const Periodicity& periodicity, double 
     back_ = pose_.inverse();
     if (step <= 0.0) return;
     twist_ = twist_between(pose_, first_image_at(time + step), step);
+    const bool has_begun = time > 0.5 * step; // a run that begins goes on as it began
+    twist_before_ = has_begun ? twist_between(first_image_at(time - step), pose_, step) : twist_;
 }
 
 PlacedWall::PlacedWall(
     const Wall& wall, const Periodicity& periodicity, const Piston& piston, const PistonState& state, const Vec3& gain)
     : wall_(&wall), shape_patches_(talus::patch_count(wall.shape)), images_(images_of(wall.shape, periodicity)),
-      pose_(state.pose), back_(pose_.inverse()), twist_(twist_of(piston, state)), gain_(gain),
+      pose_(state.pose), back_(pose_.inverse()), twist_(twist_of(piston, state)), twist_before_(twist_), gain_(gain),
       stands_(true)
 {
 }

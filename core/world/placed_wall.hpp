@@ -46,6 +46,8 @@ public:
     /// The velocity of the wall's material at a place near this patch [m/s]: the mean over the step that begins now; of
     /// a piston, that with which it begins, and the step may add `gain`.
     Vec3 velocity(std::size_t patch, const Vec3& x) const { return twist_.at(x - image_of(patch)); }
+    /// The same over as long a time before [m/s].
+    Vec3 velocity_before(std::size_t patch, const Vec3& x) const { return twist_before_.at(x - image_of(patch)); }
     const Vec3& spin() const { return twist_.spin; } ///< as `velocity` [rad/s]
     const Vec3& gain() const { return gain_; }       ///< zero but for pistons [m/s]
 
@@ -63,7 +65,7 @@ private:
     std::size_t shape_patches_;
     std::vector<Vec3> images_; ///< shifts [m], the first is zero
     Pose pose_, back_;
-    Twist twist_;
+    Twist twist_, twist_before_;
     Vec3 gain_ = Vec3::Zero();
     bool stands_;
 };
