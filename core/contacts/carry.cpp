@@ -119,6 +119,7 @@ ContactOutcome& ContactOutcome::operator+=(const ContactOutcome& other)
     from_walls += other.from_walls;
     from_pistons += other.from_pistons;
     wall_work += other.wall_work;
+    wall_gain_work += other.wall_gain_work;
     push_out_energy += other.push_out_energy;
     stored_energy += other.stored_energy;
     newly_jammed += other.newly_jammed;
@@ -141,10 +142,10 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
         outcome += carry_at_walls(walls, network.carried.walls, law);
         if (walls.has_moving_walls())
             for (const std::size_t k : walls.indices()) {
-                // A wall that gets faster does so evenly: an impulse acts at the mean of both velocities.
                 const WallRow wall = walls.wall(k);
                 const Vec3 impulse = walls.impulse(k);
-                outcome.wall_work += impulse.dot(wall.velocity) - 0.5 * wall.gain * impulse.dot(walls.normal(k));
+                outcome.wall_work += impulse.dot(wall.velocity);
+                outcome.wall_gain_work -= 0.5 * wall.gain * impulse.dot(walls.normal(k));
                 if (walls.has_rolling()) outcome.wall_work += walls.rolling_impulse(k).dot(walls.wall(k).spin);
             }
         outcome.from_walls = load_from(walls, state, h);

@@ -31,7 +31,7 @@ inline constexpr double light_share = 0.1;
 
 /// A contact that overlaps more than this has no spring and yields; in diameters of its smaller sphere. One that its
 /// material makes softer than the sweeps would, yields at the same force, but at a quarter of a diameter.
-inline constexpr double yield_overlap = 0.03;
+inline constexpr double yield_overlap = 0.015;
 inline constexpr double most_yield_overlap = 0.25;
 
 /// How near the centre the strength of a contact grows, in the same diameters.
@@ -155,13 +155,14 @@ template <class N> [[gnu::always_inline]] inline N strengthening(const ContactEv
 }
 
 /// Whether a contact is an impact in this step: it closes, faster than gravity alone would have it, and has no load.
-/// What impacts have not stopped before it is as deep as a deferred one may be, yields.
+/// What impacts have not stopped before it is as deep as a deferred one may be, yields; and what has been an impact,
+/// touches and would part again with less than the slowest impact, rests.
 template <class N>
 [[gnu::always_inline]] inline Answer<N> is_impact(const ContactEvent<N>& event, const LawOfStep& step)
 {
     const Answer<N> closes = touches<N>(event.gap, step) | (event.closes < N{} + step.h);
-    const Answer<N> touched = touches<N>(event.gap, step);
-    const Answer<N> unstopped = (-event.gap > deferred_overlap * event.diameter) | (event.struck & touched);
+    const Answer<N> settles = touches<N>(event.gap, step) & (-event.restitution * event.u_n < N{} + step.threshold_speed);
+    const Answer<N> unstopped = (-event.gap > deferred_overlap * event.diameter) | (event.struck & settles);
     return (event.u_n < N{} - step.threshold_speed) & closes & (event.load < load_share * impact_size<N>(event)) &
            (!unstopped);
 }
