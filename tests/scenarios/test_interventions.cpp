@@ -28,7 +28,7 @@ const Vec3 corner(0.01, 0.02, 0.03); // of the wall, somewhere
 
 } // namespace
 
-TEST_CASE("a driven wall goes on from where it is", "[interventions]")
+TEST_CASE("a driven wall goes on from where it is, and knows how it moved in the step before", "[interventions]")
 {
     const WallMotion motion = GENERATE(WallMotion{}, WallMotion{Translation{{}, Vec3(0.1, 0, 0)}},
         WallMotion{Turning{{}, Vec3::Zero(), Vec3::UnitZ(), 1.0}, Shaking{{}, Vec3(0, 0, 0.001), 20.0}},
@@ -43,6 +43,7 @@ TEST_CASE("a driven wall goes on from where it is", "[interventions]")
     const PlacedWall driven = wall_of(simulation);
     CHECK((driven.pose()(corner) - x).norm() < 1e-12);
     CHECK((driven.velocity(0, x) - Vec3(0, 0, 0.2)).norm() < 1e-9);
+    CHECK((driven.velocity_before(0, x) - before.velocity_before(0, x)).norm() < 1e-9);
     advance(simulation);
     CHECK((wall_of(simulation).pose()(corner) - x - h * Vec3(0, 0, 0.2)).norm() < 1e-12);
 }
@@ -50,14 +51,16 @@ TEST_CASE("a driven wall goes on from where it is", "[interventions]")
 TEST_CASE("a wall that is driven anew in every step has gone what its velocities add up to", "[interventions]")
 {
     auto simulation = simulation_with({});
-    Vec3 way = Vec3::Zero();
+    Vec3 way = Vec3::Zero(), last = Vec3::Zero();
     for (int k = 0; k < 50; ++k) {
         const Vec3 velocity(0.01 * k, 0, -0.002 * k);
         drive_wall(simulation, 0, Vec3(5, 5, 5)); // thought better of
         drive_wall(simulation, 0, velocity);
         CHECK((wall_of(simulation).velocity(0, Vec3::Zero()) - velocity).norm() < 1e-9);
+        CHECK((wall_of(simulation).velocity_before(0, Vec3::Zero()) - last).norm() < 1e-9);
         advance(simulation);
         way += simulation.model.time_step * velocity;
+        last = velocity;
     }
     CHECK((wall_of(simulation).pose().shift - way).norm() < 1e-12);
     CHECK(simulation.model.walls[0].motion.size() <= 3);

@@ -270,7 +270,7 @@ void check_against_oracle(World& world, int sweeps)
     REQUIRE(contacts.size() > 15);
     REQUIRE(has_kind(world.network, ContactKind::open));
     REQUIRE(has_kind(world.network, ContactKind::resting));
-    REQUIRE(has_kind(world.network, ContactKind::impact) == model.physics.restitution);
+    REQUIRE(has_kind(world.network, ContactKind::impact));
 
     // Without friction no row has spin either.
     auto dense = make_dense_problem(world.state, contacts, model.physics.spin);

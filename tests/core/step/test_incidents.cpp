@@ -59,10 +59,22 @@ TEST_CASE("a contact that yields is jammed once it has had all that it bears, un
         CHECK(touch.is_jammed());
         CHECK_FALSE(touch.is_newly_jammed());
     }
-    SECTION("shallow, and still loaded") { touch.note_load(true); }
-    SECTION("shallow, and closing a gap") { touch.note_closing(); }
-    SECTION("shallow, and an impact") { touch.note_impact(); }
-    SECTION("apart") { touch.note_load(false); }
+    SECTION("shallow, and still loaded")
+    {
+        touch.note_load(true);
+    }
+    SECTION("shallow, and closing a gap")
+    {
+        touch.note_closing();
+    }
+    SECTION("shallow, and an impact")
+    {
+        touch.note_impact();
+    }
+    SECTION("apart")
+    {
+        touch.note_load(false);
+    }
     CHECK_FALSE(touch.is_jammed());
     touch.note_yield(false);
     CHECK_FALSE(touch.is_jammed());
@@ -70,8 +82,8 @@ TEST_CASE("a contact that yields is jammed once it has had all that it bears, un
     CHECK(touch.is_newly_jammed());
 }
 
-TEST_CASE("what a contact was in the step before is one of: nothing, a load, the closing of a gap, an impact",
-    "[press]")
+TEST_CASE(
+    "what a contact was in the step before is one of: nothing, a load, the closing of a gap, an impact", "[press]")
 {
     // (loaded, was open, was an impact): an impact is no load, for it has no part in the next step.
     const auto is = [](const TouchRecord& touch) {
