@@ -81,7 +81,7 @@ ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, 
         if (keeps_spring)
             outcome.stored_energy += spring_energy<double>(kappa, u_n, own.spring, terms.inverse_mass_sum, law);
         carried.contact[own.slot].impulse = (along > own.hands_on ? own.hands_on / along : 1.0) * impulse;
-        carried.contact[own.slot].compression = keeps_spring ? static_cast<float>(kappa) : 0.0F;
+        carried.contact[own.slot].compression = static_cast<float>(handed_on<double>(kappa, u_n, law));
         carried.contact[own.slot].touch = touch;
         if (contacts.has_rolling())
             carried.rolling_impulse[own.slot] =

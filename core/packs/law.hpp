@@ -44,6 +44,7 @@ inline constexpr double deferred_overlap = 0.4;
 struct LawOfStep {
     double h;                        ///< of this step or sub-step [s]
     double threshold_speed = 0.0;    ///< slowest impact: that of the whole step [m/s]
+    double elastic_speed = 0.0;      ///< opening so, a spring gives back all that it holds: as pushing out does [m/s]
     bool rigid = false;              ///< `projected`
     double min_sweeps = 2.0;         ///< N_min
     double push_out_speed = 0.0;     ///< p [m/s]
@@ -219,13 +220,24 @@ inline double borne_compression(double kappa, double u_n, const LawOfStep& step)
     return kept > 0.0 ? kept : -__builtin_inf();
 }
 
+/// What a contact hands on of its κ, and what the next step makes of it: half of the way that its spheres go in a step
+/// is taken along the normal of before, and half along that of after, which a curved wall turns. 0: it has no spring.
+template <class N> [[gnu::always_inline]] inline N handed_on(const N& kappa_after, const N& u_n, const LawOfStep& step)
+{
+    return kappa_after > touching_gap * step.min_diameter ? kappa_after + 0.5 * step.h * u_n : N{};
+}
+template <class N> [[gnu::always_inline]] inline N taken_over(const N& handed, const N& u_n, const LawOfStep& step)
+{
+    return handed > 0.0 ? handed - 0.5 * step.h * u_n : N{};
+}
+
 /// κ of a spring after a step, which its impulse tells: q_n − Σ_n λ_n is u_n. What was compressed faster than impacts
 /// begin, e has a part in: it gives way 1/e² as fast (Walton & Braun 1986).
 template <class N>
 [[gnu::always_inline]] inline N compression_after(
     const N& kappa, const N& u_n, const N& impulse, const N& restitution, const LawOfStep& step)
 {
-    const N fast = larger<N>(N{}, u_n - step.threshold_speed);
+    const N fast = larger<N>(N{}, u_n - step.elastic_speed);
     const N gives_way = fast > 0.0 ? fast * (1.0 / (restitution * restitution) - 1.0) : N{};
     const N after = kappa - step.h * (u_n + gives_way);
     return ((impulse > 0.0) & (after > 0.0)) ? after : N{};

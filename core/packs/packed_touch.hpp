@@ -153,7 +153,7 @@ template <int width>
     const N w = number(contact.inverse_mass_sum), arm_scale = number(contact.arm_scale);
     const F pushed = load_flags<width>(touch.pushed + first);
     const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.u_n), number(touch.u_n_before), number(touch.closes), w, number(touch.restitution),
-        number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts, number(touch.compression), load_flags<width>(touch.struck + first)};
+        number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts, taken_over<N>(number(touch.compression), number(touch.u_n_before), step.law), load_flags<width>(touch.struck + first)};
     const F closes = is_impact<N>(event, step.law), impact = closes & within_reach;
     const NormalLaw<N> law = normal_law<N>(event, impact, step.law);
     const Vector<width> warm = warm_impulse<width>(carried, normal, number(contact.friction), impact);
@@ -307,7 +307,7 @@ HandedOn hand_on(const ContactPack& contact, RecordPack& record, double deep, co
         narrow<width>(record.touch + first, touch);
         handed.deep_lanes |= bits<width>(is_deep) << first;
 
-        const CarriedRecords<width> carries{impulse * share, keeps_spring ? kappa : none, touch};
+        const CarriedRecords<width> carries{impulse * share, handed_on<N>(kappa, u_n, law), touch};
         double* records[width];
         for (int lane = 0; lane < width; ++lane)
             records[lane] =

@@ -71,7 +71,7 @@ TEST_CASE("a roller draws grains through a gap a little narrower than they are",
 
 TEST_CASE("a roller that touches the floor crushes what it grips, and shoots nothing away", "[press]")
 {
-    // With friction 0.8 it draws in what it touches, with 0.2 it pushes it on. A sphere is never faster than the
+    // With friction 0.8 it draws in what it touches, with 0.2 it pushes it on. What yields parts with p at most from the
     // roller's surface.
     const auto law = GENERATE(Stabilisation::matched, Stabilisation::projected);
     const double friction = GENERATE(0.2, 0.8);
@@ -84,5 +84,5 @@ TEST_CASE("a roller that touches the floor crushes what it grips, and shoots not
         world.step();
         fastest = std::max(fastest, world.report.bodies.fastest_speed);
     }
-    CHECK(fastest <= roller_speed);
+    CHECK(fastest <= roller_speed + automatic_push_out_speed());
 }
