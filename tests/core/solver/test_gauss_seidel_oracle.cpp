@@ -34,9 +34,7 @@ bool is_worth_comparing(World world)
     begin(world);
     std::size_t contacts = 0;
     for_each_contact(world.network, [&](const TileContacts&, std::size_t, bool) { ++contacts; });
-    // The oracle knows no largest impulse.
-    return contacts > 15 && has_kind(world.network, ContactKind::open) &&
-           has_kind(world.network, ContactKind::resting) && !has_kind(world.network, ContactKind::yielding);
+    return contacts > 15 && has_kind(world.network, ContactKind::open) && has_kind(world.network, ContactKind::resting);
 }
 
 /// A small heap in a box in the middle of its collapse: sizes 1 : 3, resting and open contacts with spheres and walls,
@@ -100,6 +98,21 @@ std::vector<DenseContact> dense_contacts(const ContactNetwork& network)
         all.push_back(dense);
     });
     return all;
+}
+
+/// The oracle knows no largest impulse (test_packed_sweep.cpp has that of the kernel): none may have one.
+void let_bear_anything(ContactNetwork& network)
+{
+    const auto change = [](TileContacts& contacts) {
+        for (const std::size_t k : contacts.indices()) {
+            ContactTerms terms = contacts.terms(k);
+            terms.largest = infinity;
+            contacts.set(k, contacts.contact(k), terms);
+        }
+    };
+    for (TileContacts& contacts : network.contacts.spheres) change(contacts);
+    for (TileContacts& contacts : network.contacts.walls) change(contacts);
+    change(network.contacts.pistons);
 }
 
 /// Lever arms of contacts that are laid where paths meet, in the rows of the oracle, which has them where spheres are.
@@ -284,12 +297,12 @@ void check_against_oracle(World& world, int sweeps)
 {
     const Model& model = world.model;
     begin(world);
+    let_bear_anything(world.network);
     const auto contacts = dense_contacts(world.network);
     REQUIRE(contacts.size() > 15);
     REQUIRE(has_kind(world.network, ContactKind::open));
     REQUIRE(has_kind(world.network, ContactKind::resting));
     REQUIRE(has_kind(world.network, ContactKind::impact));
-    REQUIRE_FALSE(has_kind(world.network, ContactKind::yielding));
 
     // Without friction no row has spin either.
     auto dense = make_dense_problem(world.state, contacts, model.physics.spin);
