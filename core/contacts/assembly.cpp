@@ -113,7 +113,7 @@ LawOfStep law_of_step(const Model& model, const StepLength& step)
     const double slowest = model.solver.restitution_threshold * model.gravity.norm() * step.whole;
     return {.h = step.h(),
         .threshold_speed = slowest + by_rounding,
-        .elastic_speed = std::max(slowest, 4.0 * upsilon * model.solver.push_out_speed),
+        .elastic_speed = slowest > 0.0 ? slowest : 4.0 * upsilon * model.solver.push_out_speed,
         .rigid = model.solver.stabilisation == Stabilisation::projected,
         .min_sweeps = static_cast<double>(model.solver.min_sweeps),
         .push_out_speed = model.solver.push_out_speed,

@@ -35,7 +35,7 @@ inline constexpr double yield_overlap = 0.015;
 inline constexpr double most_yield_overlap = 0.25;
 
 /// How near the centre the strength of a contact grows, in the same diameters.
-inline constexpr double least_rest = 0.01;
+inline constexpr double least_rest = 1e-3;
 
 /// Overlap up to which a contact is deferred beside an impact, in diameters of the smaller sphere.
 inline constexpr double deferred_overlap = 0.4;
@@ -44,7 +44,7 @@ inline constexpr double deferred_overlap = 0.4;
 struct LawOfStep {
     double h;                        ///< of this step or sub-step [s]
     double threshold_speed = 0.0;    ///< slowest impact: that of the whole step [m/s]
-    double elastic_speed = 0.0;      ///< opening so, a spring gives back all that it holds: as pushing out does [m/s]
+    double elastic_speed = 0.0;      ///< opening so, a spring gives back all that it holds [m/s]
     bool rigid = false;              ///< `projected`
     double min_sweeps = 2.0;         ///< N_min
     double push_out_speed = 0.0;     ///< p [m/s]

@@ -253,12 +253,12 @@ TEST_CASE("a deep contact yields: it parts with the push-out speed at most, and 
     CHECK(law_of(event(-0.1 * d, -1.0), step).target == Approx(4.0 / 9.0 * 0.1 * d / h));
 
     // Its strength goes with one over the square of how far the centre is, at half a diameter of overlap, but for a
-    // hundredth of one.
+    // thousandth of one.
     const auto bears = [&](double overlap) { return law_of(event(-overlap * d, -0.1), step).largest; };
-    const double whole_way = 0.5 - yield_overlap, greatest = at_yield * std::pow(whole_way / 0.01, 2);
+    const double whole_way = 0.5 - yield_overlap, greatest = at_yield * std::pow(whole_way / least_rest, 2);
     CHECK(bears(0.5 - whole_way / 2) == Approx(4.0 * at_yield));
     CHECK(bears(0.5 - whole_way / 3) == Approx(9.0 * at_yield));
-    CHECK(bears(0.49) == Approx(greatest));
+    CHECK(bears(0.499) == Approx(greatest));
     CHECK(bears(0.9) == Approx(greatest));
 
     const auto of_rigid = law_of(event(-(0.5 - whole_way / 2) * d, -0.1), rigid());
