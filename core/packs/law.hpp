@@ -31,7 +31,7 @@ inline constexpr double light_share = 0.1;
 
 /// A contact that overlaps more than this has no spring and yields; in diameters of its smaller sphere. One that its
 /// material makes softer than the sweeps would, yields at the same force, but at a quarter of a diameter.
-inline constexpr double yield_overlap = 0.015;
+inline constexpr double yield_overlap = 0.125;
 inline constexpr double most_yield_overlap = 0.25;
 
 /// How near the centre the strength of a contact grows, in the same diameters.
