@@ -2,8 +2,9 @@
 """Rows of what the gate's jobs found."""
 import re
 
+from beds import FLOWS
 from bulk import BULKS
-from jobs import FLOWS, LAWS, MORE_SEEDS, SEEDS, Bed, hard_cases
+from jobs import LAWS, MORE_SEEDS, SEEDS, Bed, hard_cases
 from verdicts import Row, at_most, within
 
 # Of test_quietness.cpp, a small settled box: overlap [d], creep [d/s], kinetic energy [m g d].

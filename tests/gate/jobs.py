@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the gate runs, each on one thread: hard cases, runs of validation cases, and measurements with the Python module.
 What is there from the same program is not run again."""
-import hashlib
 import json
 import re
 import subprocess
@@ -10,7 +9,9 @@ from typing import NamedTuple
 
 from hard_cases import case_names, checksum_of, run_case
 from making import ROOT, RunFailed, make
+from source import digest_of
 
+from beds import FLOWS
 from bulk import BULKS
 
 RESULTS = ROOT / "build/gate"
@@ -18,7 +19,6 @@ BEDS = Path(__file__).parent / "beds.py"
 HARD = ("5 ", "8 ", "9 ", "15 ", "32 ", "33 a load on a bed of 20 layers", "33 a lid", "36 ", "37 ")  # how names begin
 SEEDS = (1, 2, 3)
 MORE_SEEDS = (1, 2, 3, 4, 5)  # where a bed in which a grain slips moves a thousand times as much as others
-FLOWS = ("hopper", "drum", "pile_plain", "vibrated_bed")
 LAWS = ("matched", "projected")
 
 
@@ -61,10 +61,8 @@ def run_bulk(build, run):
 
 
 def module_checksum(build):
-    digest = hashlib.sha256(BEDS.read_bytes())
-    for path in [*sorted((build / "python/talus").glob("_core.*.so")), *sorted((ROOT / "scenarios").glob("*.[ts]*l"))]:
-        digest.update(path.read_bytes())
-    return digest.hexdigest()
+    return digest_of([BEDS, *sorted((build / "python/talus").glob("_core.*.so")),
+                      *sorted((ROOT / "scenarios").glob("*.[ts]*l"))])
 
 
 def measure_bed(build, bed):

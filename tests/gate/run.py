@@ -90,8 +90,8 @@ def main():
     finally:
         clock.keep()
     rows, missing = all_rows(build, found)
-    now = {"commit": arguments.commit or commit(source_of(build)), "processor": processor(), "date": datetime.date.today().isoformat(),
-           "minutes": clock.minutes(), "seconds": sum(took.values()), "missing": missing,
+    now = {"commit": arguments.commit or commit(source_of(build)), "processor": processor(),
+           "date": datetime.date.today().isoformat(), "minutes": clock.minutes(), "seconds": sum(took.values()), "missing": missing,
            "rows": [row._asdict() for row in rows]}
     before = now if arguments.before else store.get("before")
     store = {**({"before": before} if before else {}), "now": now}

@@ -13,7 +13,6 @@ Exit codes: 0 done, 1 a study failed, 2 the call is wrong, 130 broken off.
 """
 import argparse
 import datetime
-import hashlib
 import json
 import shlex
 import shutil
@@ -24,7 +23,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.path.insert(0, str(ROOT / "tests/support"))
-from source import commit, processor  # noqa: E402  found by the line above
+from source import commit, digest_of, processor  # noqa: E402  found by the line above
 
 FOLDER, RESULTS = ROOT / "build/studies", HERE / "results"
 
@@ -43,10 +42,7 @@ def scene_of(path):
 
 
 def program_checksum(build):
-    digest = hashlib.sha256()
-    for path in [build / "talus", *sorted((build / "python/talus").glob("_core.*.so"))]:
-        digest.update(path.read_bytes())
-    return digest.hexdigest()
+    return digest_of([build / "talus", *sorted((build / "python/talus").glob("_core.*.so"))])
 
 
 def run(path, made_of):
@@ -89,7 +85,7 @@ def main():
         parser.error(f"no study has {' or '.join(arguments.words)} in its name")
     FOLDER.mkdir(parents=True, exist_ok=True)
     made_of = program_checksum(ROOT / "build")
-    failed = [path.stem for path in chosen if not run(path, made_of + hashlib.sha256(path.read_bytes()).hexdigest())]
+    failed = [path.stem for path in chosen if not run(path, made_of + digest_of([path]))]
     if failed:
         print(f"failed or broken off: {', '.join(failed)}", file=sys.stderr)
         return 1

@@ -12,7 +12,6 @@ Exit codes: 0 all have passed or were skipped, 1 some have failed, 2 the call is
 """
 import argparse
 import datetime
-import hashlib
 import json
 import os
 import re
@@ -21,6 +20,8 @@ import sys
 import time
 from pathlib import Path
 from typing import NamedTuple
+
+from source import digest_of
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = ("scenarios", "tests/hard/scenes", "tests/validation/scenes", "tests/data")
@@ -33,13 +34,6 @@ class Test(NamedTuple):
     environment: dict[str, str]
     folder: str
     made_of: str
-
-
-def digest_of(paths, *texts):
-    digest = hashlib.sha256("\n".join(texts).encode())
-    for path in paths:
-        digest.update(path.read_bytes())
-    return digest.hexdigest()
 
 
 def program_files(build):

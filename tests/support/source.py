@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What pages of figures are tied to: the commit that last changed the program, and the machine."""
+"""What figures are tied to: the commit that last changed the program, the files that they are made of, the machine."""
+import hashlib
 import os
 import re
 import subprocess
@@ -24,7 +25,15 @@ def source_of(build):
     return Path(found[1])
 
 
+def digest_of(paths, *texts):
+    """Of files, and of texts."""
+    digest = hashlib.sha256("\n".join(texts).encode())
+    for path in paths:
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
 def processor():
-    """Its name and how many there are, as lscpu tells them."""
+    """Its name, and how many this process may use."""
     names = re.findall(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
     return f"{len(os.sched_getaffinity(0))} × {names[0] if names else 'an unknown processor'}"
