@@ -20,7 +20,7 @@ void project(const Constraint& constraint, Eigen::Ref<Eigen::VectorXd> impulse)
 {
     if (constraint.law == Law::unilateral) impulse = impulse.cwiseMax(0.0);
     if (constraint.law != Law::contact) return;
-    impulse[0] = std::max(0.0, impulse[0]);
+    impulse[0] = std::clamp(impulse[0], 0.0, constraint.largest);
     project_on_disk(impulse.segment<tangent_rows>(1), constraint.friction * impulse[0]);
     if (constraint.rolls())
         project_on_disk(impulse.segment<rolling_rows>(1 + tangent_rows), constraint.rolling_reach * impulse[0]);

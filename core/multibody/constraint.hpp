@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include <limits>
+
 namespace talus::multibody
 {
 
@@ -10,7 +12,8 @@ namespace talus::multibody
 enum class Law {
     equality,   ///< y = 0; λ_k has either sign
     unilateral, ///< each row by itself: 0 ≤ λ ⟂ y ≥ 0
-    contact, ///< rows normal, tangent, tangent[, rolling, rolling]: 0 ≤ λ_n ⟂ y_n ≥ 0; |λ_t| ≤ μ λ_n, and where y_t is
+    contact, ///< rows normal, tangent, tangent[, rolling, rolling]: 0 ≤ λ_n ⟂ y_n ≥ 0, but where λ_n is the largest
+             ///< that the contact bears y_n may be less; |λ_t| ≤ μ λ_n, and where y_t is
              ///< not zero λ_t = −μ λ_n y_t/|y_t|; so the rolling rows, with their reach in place of μ
 };
 
@@ -23,6 +26,7 @@ struct Constraint {
     Eigen::Index first_row = 0;
     Eigen::Index rows = 0;
     double friction = 0.0;      ///< μ of a contact
+    double largest = std::numeric_limits<double>::infinity(); ///< λ_n of a contact [N s]
     double rolling_reach = 0.0; ///< μ_r R* [m] of a contact with rolling rows: |λ_r| ≤ μ_r R* λ_n
 
     bool rolls() const { return law == Law::contact && rows == 1 + tangent_rows + rolling_rows; }

@@ -151,7 +151,9 @@ template <int width, bool wall, class R, bool full> struct Contacts {
         const Numbers<width> excess =
             (u_n + load<width>(pack.compliance + first) * old_normal) - load<width>(pack.target + first);
         const Numbers<width> wanted = old_normal - relaxation * (excess * load<width>(pack.normal_mass + first));
-        const Numbers<width> new_normal = wanted < 0.0 ? Numbers<width>{} : wanted;
+        const Numbers<width> positive = wanted < 0.0 ? Numbers<width>{} : wanted;
+        const Numbers<width> largest = load<width>(pack.largest + first);
+        const Numbers<width> new_normal = positive < largest ? positive : largest;
         if constexpr (!R::friction) return normal * new_normal;
         const Numbers<width> tangent_mass = relaxation * load<width>(pack.tangent_mass + first);
         Vector<width> tangent = (impulse - normal * old_normal) - (u - normal * u_n) * tangent_mass;
