@@ -13,8 +13,8 @@ namespace talus
 /// What is known of a contact from the steps before: whether it was loaded or an impact, and whether it has jammed.
 ///
 /// Walls that move as told may ask for what rigid bodies cannot do: a press that closes on a sphere. Then no velocity
-/// obeys all contacts; those that overlap deeply yield (law.hpp), and one that had all the impulse that it bears has
-/// *jammed*, until it overlaps less.
+/// obeys all contacts; those that overlap deeply yield (law.hpp), and one that yields and could not part has *jammed*,
+/// until it overlaps less.
 class TouchRecord
 {
 public:
@@ -32,10 +32,10 @@ public:
     void note_load(bool loaded) { state_ = loaded; }
     void note_impact() { state_ = 2; }
     void note_closing() { state_ = 5; }
-    /// A step in which it yields. @param at_largest with all the impulse that it bears
-    void note_yield(bool at_largest)
+    /// A step in which it yields. @param presses and does not part as fast as it might
+    void note_yield(bool presses)
     {
-        if (is_jammed() || at_largest)
+        if (is_jammed() || presses)
             state_ = is_jammed() ? 4 : 3;
         else
             state_ = 1;

@@ -12,19 +12,17 @@ namespace talus
 namespace
 {
 
-/// An impulse that is no smaller than this share of the largest is all that a contact bears.
-constexpr double nearly_all = 1.0 - 1e-6;
-
 /// What this step adds to the record of a contact.
 TouchRecord noted(const TileContacts& contacts, std::size_t k)
 {
     const ContactGeometry geometry = contacts.geometry(k);
-    const double along = contacts.impulse(k).dot(contacts.normal(k)), largest = contacts.terms(k).largest;
+    const double along = contacts.impulse(k).dot(contacts.normal(k));
+    const ContactTerms terms = contacts.terms(k);
     TouchRecord touch = geometry.touch;
     if (along > 0.0 && geometry.kind == ContactKind::impact)
         touch.note_impact();
-    else if (largest < infinity)
-        touch.note_yield(along >= nearly_all * largest);
+    else if (geometry.kind == ContactKind::yielding)
+        touch.note_yield(along > 0.0 && contacts.contact(k).target - terms.compliance * along < terms.parting);
     else if (along > 0.0 && geometry.kind == ContactKind::open)
         touch.note_closing();
     else
@@ -128,7 +126,7 @@ ContactOutcome& ContactOutcome::operator+=(const ContactOutcome& other)
 
 ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model, const StepLength& length)
 {
-    const double h = length.h(), deep = yield_overlap * model.min_diameter;
+    const double h = length.h(), deep = jammed_overlap * model.min_diameter;
     const LawOfStep law = law_of_step(model, length);
     StepContacts& contacts = network.contacts;
     const auto tiles = static_cast<std::int64_t>(contacts.spheres.size());

@@ -26,7 +26,7 @@ struct ContactTerms {
     double arm_scale = 1.0;   ///< s = |x_a − x_b| / (r_a + r_b); 1 at walls: lever arms add up to the centre distance
     double friction = 0.0;    ///< μ
     double compliance = 0.0;  ///< Σ_n [1/kg]
-    double largest = infinity; ///< λ_n at most [N s]
+    double parting = infinity; ///< u_n that it asks for at most [m/s]
     double normal_mass = 0.0; ///< 1 / (W + Σ_n) [kg], W the inverse mass sum
     double tangent_mass = 0.0;     ///< 1 / (W (1 + 5/2 s²)) [kg]; without rotation 1/W
     double inverse_mass_sum = 0.0; ///< W = 1/m_a + 1/m_b [1/kg]

@@ -81,7 +81,7 @@ void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms
     pack.arm_scale[lane] = terms.arm_scale;
     pack.friction[lane] = terms.friction;
     pack.compliance[lane] = terms.compliance;
-    pack.largest[lane] = terms.largest;
+    pack.parting[lane] = terms.parting;
     pack.normal_mass[lane] = terms.normal_mass;
     pack.tangent_mass[lane] = terms.tangent_mass;
     pack.inverse_mass_sum[lane] = terms.inverse_mass_sum;
@@ -99,7 +99,7 @@ void TileContacts::copy(std::size_t k, const ContactPack& from, std::size_t lane
     const Contact contact{
         from.a[lane], from.b[lane], get(from.normal, lane), from.target[lane], get(from.impulse, lane)};
     set(k, contact,
-        {from.arm_scale[lane], from.friction[lane], from.compliance[lane], from.largest[lane], from.normal_mass[lane],
+        {from.arm_scale[lane], from.friction[lane], from.compliance[lane], from.parting[lane], from.normal_mass[lane],
             from.tangent_mass[lane], from.inverse_mass_sum[lane]},
         own);
 }
@@ -111,6 +111,7 @@ void TileContacts::set_law(std::size_t k, ContactKind kind, double target, float
     const std::size_t lane = k % pack_size;
     pack.target[lane] = target;
     pack.compliance[lane] = 0.0;
+    pack.parting[lane] = infinity;
     pack.normal_mass[lane] = 1.0 / pack.inverse_mass_sum[lane];
     record.kind[lane] = kind;
     record.compression[lane] = compression;
@@ -148,7 +149,7 @@ ContactTerms TileContacts::terms(std::size_t k) const
 {
     const ContactPack& pack = packs_[k / pack_size];
     const std::size_t lane = k % pack_size;
-    return {pack.arm_scale[lane], pack.friction[lane], pack.compliance[lane], pack.largest[lane], pack.normal_mass[lane],
+    return {pack.arm_scale[lane], pack.friction[lane], pack.compliance[lane], pack.parting[lane], pack.normal_mass[lane],
         pack.tangent_mass[lane], pack.inverse_mass_sum[lane]};
 }
 

@@ -25,11 +25,6 @@ constexpr Index disk_size = 2;
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 1 + 2 * disk_size, 1>; ///< rows of a contact
 static_assert(tangent_rows == disk_size && rolling_rows == disk_size);
 
-/// What the impulse of a row lies between.
-struct Bounds {
-    double least, largest;
-};
-
 /// Calls visit(DiskRows) for the tangential and, where there are such, the rolling rows of a contact.
 template <class Visit> void for_each_disk(const Constraint& contact, Visit&& visit)
 {
@@ -37,11 +32,11 @@ template <class Visit> void for_each_disk(const Constraint& contact, Visit&& vis
     if (contact.rolls()) visit(DiskRows{1 + tangent_rows, contact.rolling_reach});
 }
 
-/// One row as an equation, z_i within its bounds, and what that changes in all rows.
-void solve_row(const LocalProblem& local, Index i, const Bounds& bounds, LocalVector y, LocalVector z)
+/// One row as an equation, z_i ≥ least, and what that changes in all rows.
+void solve_row(const LocalProblem& local, Index i, double least, LocalVector y, LocalVector z)
 {
     if (local.D(i, i) <= 0.0) return; // nothing moves: both bodies are fixed
-    const double solved = std::clamp(z[i] - local.omega * y[i] / local.D(i, i), bounds.least, bounds.largest);
+    const double solved = std::max(least, z[i] - local.omega * y[i] / local.D(i, i));
     y += local.D.col(i) * (solved - z[i]);
     z[i] = solved;
 }
@@ -58,11 +53,10 @@ void solve_disk(const LocalProblem& local, const DiskRows& rows, LocalVector y, 
     z.segment<disk_size>(rows.first) = solved;
 }
 
-Bounds bounds_of(const Constraint& constraint, Index row)
+double least_impulse(const Constraint& constraint, Index row)
 {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    if (constraint.law == Law::contact && row == 0) return {0.0, constraint.largest};
-    return {constraint.law == Law::unilateral ? 0.0 : -infinite, infinite};
+    const bool is_bounded = constraint.law == Law::unilateral || (constraint.law == Law::contact && row == 0);
+    return is_bounded ? 0.0 : -std::numeric_limits<double>::infinity();
 }
 
 /// What (21) makes of the impulse of (18): z = z_1 direction + stuck.
@@ -106,14 +100,14 @@ void solve_along_sliding(const LocalProblem& local, LocalVector y, LocalVector z
     const double denominator = D.dot(sliding.direction);
     if (sliding.slides && denominator > 0.0) {
         const double normal = -(b + D.dot(sliding.stuck)) / denominator;
-        z = std::clamp(normal, 0.0, local.constraint.largest) * sliding.direction + sliding.stuck;
+        z = std::max(0.0, normal) * sliding.direction + sliding.stuck;
     }
     project(local.constraint, z);
 }
 
 void solve_by_row(const LocalProblem& local, LocalVector y, LocalVector z)
 {
-    for (Index i = 0; i < z.size(); ++i) solve_row(local, i, bounds_of(local.constraint, i), y, z);
+    for (Index i = 0; i < z.size(); ++i) solve_row(local, i, least_impulse(local.constraint, i), y, z);
     project(local.constraint, z);
 }
 
@@ -128,12 +122,13 @@ void solve_in_sequence(const LocalProblem& local, LocalVector y, LocalVector z)
     case Law::contact:
         break;
     }
-    solve_row(local, 0, bounds_of(local.constraint, 0), y, z);
+    solve_row(local, 0, 0.0, y, z);
     for_each_disk(local.constraint, [&](const DiskRows& rows) { solve_disk(local, rows, y, z); });
 }
 
 void solve_locally(LocalSolve how, const LocalProblem& local, LocalVector y, LocalVector z)
 {
+    limit_parting(local.constraint, z[0], local.D(0, 0), y);
     switch (how) {
     case LocalSolve::block:
         return solve_by_block(local, y, z);

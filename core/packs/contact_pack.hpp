@@ -26,7 +26,7 @@ struct alignas(64) ContactPack {
     double arm_scale[pack_size];        ///< s
     double friction[pack_size];         ///< μ
     double compliance[pack_size];       ///< Σ_n [1/kg]
-    double largest[pack_size];          ///< λ_n at most [N s]
+    double parting[pack_size];          ///< u_n that it asks for at most [m/s]
     double normal_mass[pack_size];      ///< 1 / (W + Σ_n) [kg]
     double tangent_mass[pack_size];     ///< 1 / (W (1 + 5/2 s²)) [kg]
     double inverse_mass_sum[pack_size]; ///< W [1/kg]

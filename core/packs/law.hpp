@@ -29,12 +29,17 @@ inline constexpr double load_share = 1e-4;
 /// An impact below this share of a contact's load is light: the contact stays a spring beside it.
 inline constexpr double light_share = 0.1;
 
-/// A contact that overlaps more than this has no spring and yields; in diameters of its smaller sphere. One that its
-/// material makes softer than the sweeps would, yields at the same force, but at a quarter of a diameter.
+/// A contact that overlaps more than this yields: it keeps nothing of what it bears; in diameters of its smaller sphere.
+/// One that its material makes softer than the sweeps would, yields at the same force, but at a quarter of a diameter.
 inline constexpr double yield_overlap = 0.125;
 inline constexpr double most_yield_overlap = 0.25;
+/// The same for rigid contacts.
+inline constexpr double rigid_yield_overlap = 0.02;
+/// What has jammed yields until it overlaps less than this, in the same diameters.
+inline constexpr double jammed_overlap = 0.01;
 
-/// How near the centre the strength of a contact grows, in the same diameters.
+/// Nearer to the centre of the smaller sphere than this a contact gets stiffer, up to the second; in its diameters.
+inline constexpr double stiffening_rest = 0.25;
 inline constexpr double least_rest = 1e-3;
 
 /// Overlap up to which a contact is deferred beside an impact, in diameters of the smaller sphere.
@@ -55,11 +60,11 @@ struct LawOfStep {
 /// Yes or no for each of these numbers.
 template <class N> using Answer = decltype(N{} < N{});
 
-/// The normal law of one contact: 0 ≤ λ_n ≤ largest, u_n + Σ_n λ_n ≥ q_n unless λ_n is the largest.
+/// The normal law of one contact: 0 ≤ λ_n ⟂ u_n − min(q_n − Σ_n λ_n, parting) ≥ 0.
 template <class N> struct NormalLaw {
     N target;      ///< q_n [m/s]
     N compliance;  ///< Σ_n [1/kg]
-    N largest;     ///< λ_n [N s], infinite unless the contact yields
+    N parting;     ///< at most it asks for [m/s], infinite unless the contact yields
     N compression; ///< κ: what a load has pressed, and pushing out [m]
 };
 
@@ -76,6 +81,7 @@ template <class N> struct ContactEvent {
     N load;             ///< λ_n that the step before would have had, had it been whole [N s] …
     N compression;      ///< … and the κ that it has left [m]
     Answer<N> struck;   ///< it was an impact then
+    Answer<N> jammed;   ///< it had jammed
 };
 
 template <class N> [[gnu::always_inline]] inline N smaller(const N& a, const N& b)
@@ -141,17 +147,18 @@ template <class N> [[gnu::always_inline]] inline N impact_size(const ContactEven
 
 /// By how much a contact overlaps when it begins to yield [m]. @param compliance of its spring
 template <class N>
-[[gnu::always_inline]] inline N strength(const ContactEvent<N>& event, const N& compliance, const LawOfStep& step)
+[[gnu::always_inline]] inline N elastic_overlap(const ContactEvent<N>& event, const N& compliance, const LawOfStep& step)
 {
     const N softness = compliance / (sigma_per_sweep / step.min_sweeps * event.inverse_mass_sum);
-    return event.diameter * smaller<N>(N{} + most_yield_overlap, yield_overlap * softness);
+    const N begins = step.rigid ? N{} + rigid_yield_overlap : smaller<N>(N{} + most_yield_overlap, yield_overlap * softness);
+    return event.diameter * (event.jammed ? N{} + jammed_overlap : begins);
 }
 
-/// By how much stronger a contact is that overlaps more than that: none is as deep as the centre of its smaller sphere.
-template <class N> [[gnu::always_inline]] inline N strengthening(const ContactEvent<N>& event, const N& deepest)
+/// How many times stiffer a contact is that yields: none is as deep as the centre of its smaller sphere.
+template <class N> [[gnu::always_inline]] inline N stiffening(const ContactEvent<N>& event)
 {
     const N rest = larger<N>(N{} + least_rest, 0.5 + event.gap / event.diameter);
-    const N growth = (0.5 - deepest / event.diameter) / rest;
+    const N growth = larger<N>(N{} + 1.0, stiffening_rest / rest);
     return growth * growth;
 }
 
@@ -185,8 +192,8 @@ template <class N>
     const N share = step.parts > 1.0 ? feedback_share<N>(compliance, event.inverse_mass_sum, step) : none + 1.0;
     const N per_way = 4.0 * upsilon / step.h * share; // of feedback: the speed that it asks for, by κ
 
-    const N deepest = strength<N>(event, compliance, step);
-    const Answer<N> open = event.gap > least, yields = -event.gap > deepest, rests = !(open | yields | impact);
+    const Answer<N> open = event.gap > least, yields = -event.gap > elastic_overlap<N>(event, compliance, step);
+    const Answer<N> rests = !(open | yields | impact);
     const N before = event.compression > least ? event.compression : none;
     const N kappa = smaller<N>(-event.gap, before + step.h * step.push_out_speed);
     const Answer<N> is_spring = step.rigid ? Answer<N>{} : rests & (before > 0.0);
@@ -194,10 +201,13 @@ template <class N>
     const N push = open ? -event.gap / step.h : (step.rigid ? none : (yields ? pushing : per_way * kappa));
 
     const N alone = is_spring ? push : passive_target<N>(push, event.u_n_before);
+    const Answer<N> gives_way = yields & !impact; // like a spring that its whole overlap has pressed
+    const N pressed = -event.gap - (step.rigid ? jammed_overlap * event.diameter : none);
+    const N target = gives_way ? pressed * per_way : alone;
     const Answer<N> keeps = step.rigid ? Answer<N>{} : is_spring | (rests & (event.u_n_before < least / step.h));
-    return {impact ? -event.restitution * event.u_n : alone, step.rigid ? none : (rests ? compliance : none),
-        (yields & !impact) ? strengthening<N>(event, deepest) * per_way * deepest / compliance : infinite,
-        keeps ? kappa : -infinite};
+    return {impact ? -event.restitution * event.u_n : target,
+        gives_way ? compliance / stiffening<N>(event) : (step.rigid ? none : (rests | open ? (impact ? none : compliance) : none)),
+        gives_way ? alone : infinite, keeps ? kappa : -infinite};
 }
 
 /// A contact that had no load beside an impact of one of its spheres is deferred: it does not close further than to a

@@ -153,7 +153,7 @@ template <int width>
     const N w = number(contact.inverse_mass_sum), arm_scale = number(contact.arm_scale);
     const F pushed = load_flags<width>(touch.pushed + first);
     const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.u_n), number(touch.u_n_before), number(touch.closes), w, number(touch.restitution),
-        number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts, taken_over<N>(number(touch.compression), number(touch.u_n_before), step.law), load_flags<width>(touch.struck + first)};
+        number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts, taken_over<N>(number(touch.compression), number(touch.u_n_before), step.law), load_flags<width>(touch.struck + first), load_flags<width>(touch.jammed + first)};
     const F closes = is_impact<N>(event, step.law), impact = closes & within_reach;
     const NormalLaw<N> law = normal_law<N>(event, impact, step.law);
     const Vector<width> warm = warm_impulse<width>(carried, normal, number(contact.friction), impact);
@@ -167,7 +167,7 @@ template <int width>
     put(contact.impulse[2], warm.z);
     put(contact.target, law.target);
     put(contact.compliance, law.compliance);
-    put(contact.largest, law.largest);
+    put(contact.parting, law.parting);
     put(contact.normal_mass, 1.0 / (w + law.compliance));
     put(contact.tangent_mass, 1.0 / (w * (1.0 + step.inverse_inertia * arm_scale * arm_scale)));
     put(contact.inverse_mass_sum, w);
@@ -184,7 +184,7 @@ template <int width>
     put(touch.impact_size, impact ? impact_size<N>(event) : none);
     store<width>(touch.compression + first, law.compression);
     const F open = event.gap > least;
-    const F yields = law.largest < none + __builtin_inf();
+    const F yields = law.parting < none + __builtin_inf();
     store<width>(touch.kind + first, impact ? F{} + 2 : (open ? F{} + 1 : (yields ? F{} + 3 : F{})));
 }
 
@@ -217,6 +217,7 @@ template <int width>
     store<width>(touch.compression + first, carried.compression);
     store<width>(touch.struck + first, carried.touch == std::int64_t{2});
     store<width>(touch.pushed + first, carried.touch == std::int64_t{5});
+    store<width>(touch.jammed + first, (carried.touch == std::int64_t{3}) | (carried.touch == std::int64_t{4}));
     narrow<width>(record.touch + first, carried.touch);
 }
 

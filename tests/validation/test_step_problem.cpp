@@ -121,7 +121,7 @@ Census compare(const std::string& scene, double time)
     // Guides of pistons are blocks, and single rows in a file; FCLIB has no words for the largest impulse of a contact.
     const bool may_be_filed = simulation.model.pistons.empty() &&
                               std::ranges::none_of(step.problem.constraints(),
-                                  [](const multibody::Constraint& contact) { return contact.largest < infinity; });
+                                  [](const multibody::Constraint& contact) { return contact.headroom < infinity; });
     if (may_be_filed)
         CHECK(worst_difference(
                   swept_by_kernel(simulation, 20), step, swept_from_file(step, as_run(simulation.model, 20))) < 1e-10);

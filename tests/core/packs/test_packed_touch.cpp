@@ -245,10 +245,10 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
             closing_time<double>(
                 -across.dot(velocity), velocity.squaredNorm(), across.squaredNorm() - 4 * radius * radius, root),
             w, pair.restitution, pair.stiffness, Touches::had_gap(lane) ? 0.0 : step.parts * carried_along,
-            taken_over<double>(own.compression, u_n, step), Touches::was_struck(lane)};
+            taken_over<double>(own.compression, u_n, step), Touches::was_struck(lane), Touches::is_jammed(lane)};
         const bool impact = is_impact<double>(event, step), open = gap > touching_gap * 2 * radius;
         const double spring = spring_compliance<double>(pair.stiffness, w, step);
-        const bool yields = -gap > strength<double>(event, spring, step);
+        const bool yields = -gap > elastic_overlap<double>(event, spring, step);
         CHECK(all.is_struck(lane) == impact);
         CHECK(all.impacts.size[lane] == (impact ? Approx(impact_size<double>(event)) : Approx(0.0).margin(0.0)));
         CHECK(all.record.kind[lane] == (impact      ? ContactKind::impact
@@ -267,7 +267,7 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
         const auto law = normal_law<double>(event, impact, step);
         CHECK(contact.target[lane] == Approx(law.target).epsilon(1e-12).margin(1e-15));
         CHECK(contact.compliance[lane] == law.compliance);
-        CHECK(contact.largest[lane] == Approx(law.largest));
+        CHECK(contact.parting[lane] == Approx(law.parting));
         CHECK(contact.normal_mass[lane] == 1.0 / (w + law.compliance));
         const double s = contact.arm_scale[lane];
         CHECK(contact.tangent_mass[lane] == Approx(1.0 / (w * (1.0 + 2.5 * s * s))));

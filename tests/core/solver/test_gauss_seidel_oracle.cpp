@@ -100,13 +100,13 @@ std::vector<DenseContact> dense_contacts(const ContactNetwork& network)
     return all;
 }
 
-/// The oracle knows no largest impulse (test_packed_sweep.cpp has that of the kernel): none may have one.
-void let_bear_anything(ContactNetwork& network)
+/// The oracle knows no parting speed (test_packed_sweep.cpp has that of the kernel): none may have one.
+void let_part(ContactNetwork& network)
 {
     const auto change = [](TileContacts& contacts) {
         for (const std::size_t k : contacts.indices()) {
             ContactTerms terms = contacts.terms(k);
-            terms.largest = infinity;
+            terms.parting = infinity;
             contacts.set(k, contacts.contact(k), terms);
         }
     };
@@ -297,7 +297,7 @@ void check_against_oracle(World& world, int sweeps)
 {
     const Model& model = world.model;
     begin(world);
-    let_bear_anything(world.network);
+    let_part(world.network);
     const auto contacts = dense_contacts(world.network);
     REQUIRE(contacts.size() > 15);
     REQUIRE(has_kind(world.network, ContactKind::open));
