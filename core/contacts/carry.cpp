@@ -13,7 +13,7 @@ namespace
 {
 
 /// What this step adds to the record of a contact.
-TouchRecord noted(const TileContacts& contacts, std::size_t k)
+TouchRecord noted(const TileContacts& contacts, std::size_t k, double deep)
 {
     const ContactGeometry geometry = contacts.geometry(k);
     const double along = contacts.impulse(k).dot(contacts.normal(k));
@@ -21,7 +21,7 @@ TouchRecord noted(const TileContacts& contacts, std::size_t k)
     TouchRecord touch = geometry.touch;
     if (along > 0.0 && geometry.kind == ContactKind::impact)
         touch.note_impact();
-    else if (geometry.kind == ContactKind::yielding)
+    else if (geometry.kind == ContactKind::yielding || (geometry.touch.is_jammed() && -geometry.gap > deep))
         touch.note_yield(along > 0.0 && contacts.contact(k).target - terms.compliance * along < terms.parting);
     else if (along > 0.0 && geometry.kind == ContactKind::open)
         touch.note_closing();
@@ -43,7 +43,7 @@ ContactOutcome carry_between_spheres(
         outcome.push_out_energy += handed.push_out_energy;
         for (unsigned lanes = handed.deep_lanes; lanes != 0; lanes &= lanes - 1) {
             const std::size_t k = pack_size * p + static_cast<std::size_t>(std::countr_zero(lanes));
-            const TouchRecord touch = noted(contacts, k);
+            const TouchRecord touch = noted(contacts, k, deep);
             contacts.set_touch(k, touch);
             carried.contact[contacts.geometry(k).slot].touch = touch;
             if (touch.is_newly_jammed()) ++outcome.newly_jammed;
@@ -58,7 +58,7 @@ ContactOutcome carry_between_spheres(
 }
 
 /// The same of those with walls, one by one.
-ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, const LawOfStep& law)
+ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, double deep, const LawOfStep& law)
 {
     ContactOutcome outcome;
     for (const std::size_t k : contacts.indices()) {
@@ -66,13 +66,13 @@ ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, 
         const ContactTerms terms = contacts.terms(k);
         const double along = impulse.dot(normal), tangent_impulse = (impulse - along * normal).norm();
         outcome.cone_violation = std::max(outcome.cone_violation, tangent_impulse - terms.friction * along);
-        const TouchRecord touch = noted(contacts, k);
+        const TouchRecord touch = noted(contacts, k, deep);
         contacts.set_touch(k, touch);
         if (touch.is_newly_jammed()) ++outcome.newly_jammed;
 
         const ContactGeometry own = contacts.geometry(k);
-        const double u_n = contacts.contact(k).target - terms.compliance * along;
-        const double kappa = compression_after<double>(own.compression, u_n, along, own.restitution, law);
+        const double u_n = std::min(contacts.contact(k).target - terms.compliance * along, terms.parting);
+        const double kappa = compression_after<double>(own.compression, own.gap, u_n, along, own.restitution, law);
         const bool keeps_spring = kappa > touching_gap * law.min_diameter;
         if (own.kind == ContactKind::resting || own.kind == ContactKind::yielding)
             outcome.push_out_energy += push_out_energy<double>(own.compression, own.gap, contacts.contact(k).target, along, law);
@@ -137,7 +137,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
         auto& outcome = outcomes[tile];
         TileContacts& walls = contacts.walls[tile];
         outcome = carry_between_spheres(contacts.spheres[tile], network.list.tiles.tiles[tile].carried, deep, law);
-        outcome += carry_at_walls(walls, network.carried.walls, law);
+        outcome += carry_at_walls(walls, network.carried.walls, deep, law);
         if (walls.has_moving_walls())
             for (const std::size_t k : walls.indices()) {
                 const WallRow wall = walls.wall(k);
@@ -151,7 +151,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
     }
     ContactOutcome all;
     for (const auto& outcome : outcomes) all += outcome;
-    all += carry_at_walls(contacts.pistons, network.carried.walls, law);
+    all += carry_at_walls(contacts.pistons, network.carried.walls, deep, law);
     all.from_pistons = load_from(contacts.pistons, state, h);
     note_walls_touched(contacts.pistons, state);
     return all;

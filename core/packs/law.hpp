@@ -26,6 +26,9 @@ inline constexpr double touching_gap = 1e-9;
 /// A load below this share of an impact's impulse is none.
 inline constexpr double load_share = 1e-4;
 
+/// A spring gives way no faster than with this restitution: with a smaller one, it parts slowly.
+inline constexpr double least_restitution = 0.25;
+
 /// An impact below this share of a contact's load is light: the contact stays a spring beside it.
 inline constexpr double light_share = 0.1;
 
@@ -33,14 +36,14 @@ inline constexpr double light_share = 0.1;
 /// One that its material makes softer than the sweeps would, yields at the same force, but at a quarter of a diameter.
 inline constexpr double yield_overlap = 0.125;
 inline constexpr double most_yield_overlap = 0.25;
-/// The same for rigid contacts.
-inline constexpr double rigid_yield_overlap = 0.02;
+/// Rigid contacts are so up to this, and bear what presses beyond; they keep nothing anyway.
+inline constexpr double rigid_yield_overlap = 0.022;
 /// What has jammed yields until it overlaps less than this, in the same diameters.
 inline constexpr double jammed_overlap = 0.01;
 
 /// Nearer to the centre of the smaller sphere than this a contact gets stiffer, up to the second; in its diameters.
 inline constexpr double stiffening_rest = 0.25;
-inline constexpr double least_rest = 1e-3;
+inline constexpr double least_rest = 2e-2;
 
 /// Overlap up to which a contact is deferred beside an impact, in diameters of the smaller sphere.
 inline constexpr double deferred_overlap = 0.4;
@@ -64,8 +67,9 @@ template <class N> using Answer = decltype(N{} < N{});
 template <class N> struct NormalLaw {
     N target;      ///< q_n [m/s]
     N compliance;  ///< Σ_n [1/kg]
-    N parting;     ///< at most it asks for [m/s], infinite unless the contact yields
+    N parting;     ///< at most it asks for [m/s]
     N compression; ///< κ: what a load has pressed, and pushing out [m]
+    Answer<N> yields;
 };
 
 /// What the law of a contact depends on.
@@ -150,8 +154,8 @@ template <class N>
 [[gnu::always_inline]] inline N elastic_overlap(const ContactEvent<N>& event, const N& compliance, const LawOfStep& step)
 {
     const N softness = compliance / (sigma_per_sweep / step.min_sweeps * event.inverse_mass_sum);
-    const N begins = step.rigid ? N{} + rigid_yield_overlap : smaller<N>(N{} + most_yield_overlap, yield_overlap * softness);
-    return event.diameter * (event.jammed ? N{} + jammed_overlap : begins);
+    const N begins = event.jammed ? N{} + jammed_overlap : smaller<N>(N{} + most_yield_overlap, yield_overlap * softness);
+    return event.diameter * (step.rigid ? N{} + rigid_yield_overlap : begins);
 }
 
 /// How many times stiffer a contact is that yields: none is as deep as the centre of its smaller sphere.
@@ -182,6 +186,17 @@ template <class N> [[gnu::always_inline]] inline N passive_target(const N& push,
     return smaller<N>(push, 2.0 * larger<N>(N{}, push) - u_n);
 }
 
+/// How fast a spring parts at most, beyond the speed of pushing out: what was pressed faster than impacts begin comes
+/// back with e of the speed that it could have; κ/h is more than any spring has. A contact that does so gives energy
+/// away only where it does not close, so it may always part as fast as it has closed.
+template <class N>
+[[gnu::always_inline]] inline N spring_parting(
+    const ContactEvent<N>& event, const N& kappa, const N& before, const LawOfStep& step)
+{
+    const N pushing = larger<N>(N{}, smaller<N>(N{} + step.push_out_speed, (-event.gap - before) / step.h));
+    return larger<N>(step.elastic_speed + pushing + event.restitution * kappa / step.h, -event.u_n_before);
+}
+
 /// The law of a contact where no impact is beside it, METHOD (4).
 template <class N>
 [[gnu::always_inline]] inline NormalLaw<N> normal_law(
@@ -202,12 +217,13 @@ template <class N>
 
     const N alone = is_spring ? push : passive_target<N>(push, event.u_n_before);
     const Answer<N> gives_way = yields & !impact; // like a spring that its whole overlap has pressed
-    const N pressed = -event.gap - (step.rigid ? jammed_overlap * event.diameter : none);
+    const N pressed = -event.gap - (step.rigid ? rigid_yield_overlap * event.diameter : none);
     const N target = gives_way ? pressed * per_way : alone;
     const Answer<N> keeps = step.rigid ? Answer<N>{} : is_spring | (rests & (event.u_n_before < least / step.h));
     return {impact ? -event.restitution * event.u_n : target,
         gives_way ? compliance / stiffening<N>(event) : (step.rigid ? none : (rests | open ? (impact ? none : compliance) : none)),
-        gives_way ? alone : infinite, keeps ? kappa : -infinite};
+        gives_way ? alone : (is_spring ? spring_parting<N>(event, kappa, before, step) : infinite),
+        keeps ? kappa : -infinite, gives_way};
 }
 
 /// A contact that had no load beside an impact of one of its spheres is deferred: it does not close further than to a
@@ -242,13 +258,16 @@ template <class N> [[gnu::always_inline]] inline N taken_over(const N& handed, c
 }
 
 /// κ of a spring after a step, which its impulse tells: q_n − Σ_n λ_n is u_n. What was compressed faster than impacts
-/// begin, e has a part in: it gives way 1/e² as fast (Walton & Braun 1986).
+/// begin, e has a part in: it gives way 1/e² as fast (Walton & Braun 1986); pushing out is no part of that speed.
+/// @param gap at the beginning of the step [m]
 template <class N>
-[[gnu::always_inline]] inline N compression_after(
-    const N& kappa, const N& u_n, const N& impulse, const N& restitution, const LawOfStep& step)
+[[gnu::always_inline]] inline N compression_after(const N& kappa, const N& gap, const N& u_n, const N& impulse,
+    const N& restitution, const LawOfStep& step)
 {
-    const N fast = larger<N>(N{}, u_n - step.elastic_speed);
-    const N gives_way = fast > 0.0 ? fast * (1.0 / (restitution * restitution) - 1.0) : N{};
+    const N pushing = smaller<N>(N{} + step.push_out_speed, (-gap - kappa) / step.h);
+    const N fast = larger<N>(N{}, u_n - step.elastic_speed - larger<N>(N{}, pushing));
+    const N e = larger<N>(N{} + least_restitution, restitution);
+    const N gives_way = fast * larger<N>(N{}, 1.0 / (e * e) - 1.0);
     const N after = kappa - step.h * (u_n + gives_way);
     return ((impulse > 0.0) & (after > 0.0)) ? after : N{};
 }

@@ -184,7 +184,7 @@ template <int width>
     put(touch.impact_size, impact ? impact_size<N>(event) : none);
     store<width>(touch.compression + first, law.compression);
     const F open = event.gap > least;
-    const F yields = law.parting < none + __builtin_inf();
+    const F yields = law.yields;
     store<width>(touch.kind + first, impact ? F{} + 2 : (open ? F{} + 1 : (yields ? F{} + 3 : F{})));
 }
 
@@ -284,11 +284,12 @@ HandedOn hand_on(const ContactPack& contact, RecordPack& record, double deep, co
         const N excess = root<width>(tangent.dot(tangent)) - load<width>(contact.friction + first) * along;
 
         const N spring = load_floats<width>(record.spring + first), w = load<width>(contact.inverse_mass_sum + first);
-        const N u_n = load<width>(contact.target + first) - load<width>(contact.compliance + first) * along;
-        const N kappa = compression_after<N>(load_floats<width>(record.compression + first), u_n, along,
+        const N of_spring = load<width>(contact.target + first) - load<width>(contact.compliance + first) * along;
+        const N u_n = smaller<N>(of_spring, load<width>(contact.parting + first));
+        const N gap = load<width>(record.gap + first);
+        const N kappa = compression_after<N>(load_floats<width>(record.compression + first), gap, u_n, along,
             load_floats<width>(record.restitution + first), law);
         const N energy = spring_energy<N>(kappa, u_n, spring, w, law);
-        const N gap = load<width>(record.gap + first);
         const N pushed = push_out_energy<N>(
             load_floats<width>(record.compression + first), gap, load<width>(contact.target + first), along, law);
         const F kind = widened<width>(reinterpret_cast<const std::uint8_t*>(record.kind) + first);

@@ -332,7 +332,7 @@ TEST_CASE("a loaded spring beside any other contacts takes (u_n⁺ + u_n)²/(4 �
         REQUIRE(law.compression == kappa);
         const double impulse = (law.target - u_after) / law.compliance;
         if (impulse <= 0.0) continue;
-        const double after = compression_after<double>(kappa, u_after, impulse, 1.0, step);
+        const double after = compression_after<double>(kappa, -kappa, u_after, impulse, 1.0, step);
         if (after == 0.0) continue;
         const auto holds = [&](double compression, double u_n) {
             return spring_energy<double>(compression, u_n, law.compliance, w, step);
@@ -384,7 +384,7 @@ TEST_CASE("a spring gives back what it was pressed, and what e leaves of it wher
     "[law][stabilisation][compression]")
 {
     const auto after = [](double kappa, double u_n, double impulse, double restitution) {
-        return compression_after<double>(kappa, u_n, impulse, restitution, matched());
+        return compression_after<double>(kappa, -kappa, u_n, impulse, restitution, matched());
     };
     for (const double restitution : {1.0, 0.5, 0.0}) {
         CHECK(after(1e-4, -0.02, 0.1, restitution) == Approx(1e-4 + h * 0.02));
@@ -413,7 +413,7 @@ TEST_CASE("what a spring hands on is the same κ again where its normal does not
     CHECK(handed_on<double>(0.9e-9 * d, 0.1, step) == 0.0);
     CHECK(taken_over<double>(0.0, -0.1, step) == 0.0);
     // A spring that a step has pressed is handed on as one, however fast.
-    const double after = compression_after<double>(1e-6, -5.0, 0.1, 0.4, step);
+    const double after = compression_after<double>(1e-6, -1e-6, -5.0, 0.1, 0.4, step);
     CHECK(handed_on<double>(after, -5.0, step) == Approx(1e-6 + 0.5 * h * 5.0));
 }
 
@@ -448,7 +448,7 @@ TEST_CASE("a spring that bears an impact comes to hold no more than it did", "[l
         const LawOfStep step = matched(k % 2 ? 1.0 : 3.0);
         const double kappa = between(1e-6, 1e-4), u_n = between(-0.05, 0.02);
         const double begins = borne_compression(kappa, u_n, step), u_after = bearing_target(-kappa, u_n, step);
-        const double after = compression_after<double>(begins, u_after, 0.1, 1.0, step);
+        const double after = compression_after<double>(begins, -begins, u_after, 0.1, 1.0, step);
         const auto holds = [&](double compression, double speed) {
             return spring_energy<double>(compression, speed, sigma, w, step);
         };

@@ -359,7 +359,7 @@ TEST_CASE("contacts hand on their impulses and what their springs keep, impacts 
         // A solved row tells u_n: q − Σ λ. From it a spring knows what is left of it.
         const double u_n = contact.target[lane] - contact.compliance[lane] * along;
         const double kappa = compression_after<double>(
-            solved.record.compression[lane], u_n, along, solved.record.restitution[lane], step);
+            solved.record.compression[lane], solved.record.gap[lane], u_n, along, solved.record.restitution[lane], step);
         const bool keeps = kappa > touching_gap * step.min_diameter;
         CHECK(own.compression == Approx(static_cast<float>(handed_on<double>(kappa, u_n, step))));
         CHECK((own.compression > 0.0F) == keeps);
