@@ -30,8 +30,8 @@ StepConstants step_constants(const Model& model, const StepLength& length)
 template <class Use> void for_each_meeting_pair(std::span<WallPair> pairs, WallDetection& detection, Use&& use)
 {
     for (auto first = pairs.begin(); first != pairs.end();) {
-        const auto last = std::find_if(
-            first, pairs.end(), [&](const WallPair& pair) { return pair.sphere != first->sphere; });
+        const auto last =
+            std::find_if(first, pairs.end(), [&](const WallPair& pair) { return pair.sphere != first->sphere; });
         const std::span<const WallMeeting> meetings = detection.find({first, last});
         for (auto from = meetings.begin(); from != meetings.end();) {
             const auto to =
@@ -58,7 +58,8 @@ ContactSurvey assemble_wall_contacts(ContactNetwork& network, std::size_t tile, 
     for_each_meeting_pair(pairs, detection, [&](std::span<const WallMeeting> meetings) {
         if (walls[meetings.front().pair->wall].is_piston()) return;
         detection.lay(meetings, [&](const WallTouch& touch, const WallMeeting&) {
-            assembly.add(touch, model.materials.between(state.material[touch.sphere], model.walls[touch.wall].material));
+            assembly.add(
+                touch, model.materials.between(state.material[touch.sphere], model.walls[touch.wall].material));
         });
     });
     return assembly.finish();
@@ -113,7 +114,7 @@ LawOfStep law_of_step(const Model& model, const StepLength& step)
     const double slowest = model.solver.restitution_threshold * model.gravity.norm() * step.whole;
     return {.h = step.h(),
         .threshold_speed = slowest + by_rounding,
-        .elastic_speed = slowest > 0.0 ? slowest : 4.0 * upsilon * model.solver.push_out_speed,
+        .elastic_speed = slowest > 0.0 ? slowest : 12.0 * upsilon * model.solver.push_out_speed,
         .rigid = model.solver.stabilisation == Stabilisation::projected,
         .min_sweeps = static_cast<double>(model.solver.min_sweeps),
         .push_out_speed = model.solver.push_out_speed,

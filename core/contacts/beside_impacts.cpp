@@ -34,8 +34,7 @@ public:
     {
         double ratio = 0.0;
         for_each([&](std::size_t k) {
-            const double u_n =
-                contacts_.normal(k).dot(state_.motion[contacts_.a(k)].velocity - velocity_of_other(k));
+            const double u_n = contacts_.normal(k).dot(state_.motion[contacts_.a(k)].velocity - velocity_of_other(k));
             if (!settle_one(k, u_n, step)) return;
             ratio = std::max(ratio, mass_ratio(contacts_.a(k)));
             if (!with_walls_) ratio = std::max(ratio, mass_ratio(contacts_.b(k)));
@@ -101,7 +100,9 @@ double stand_beside_impacts(ContactNetwork& network, const State& state, const M
     const auto spheres = [&](std::size_t tile) {
         return Bystanders(contacts.spheres[tile], false, contacts.impacts, state);
     };
-    const auto walls = [&](std::size_t tile) { return Bystanders(contacts.walls[tile], true, contacts.impacts, state); };
+    const auto walls = [&](std::size_t tile) {
+        return Bystanders(contacts.walls[tile], true, contacts.impacts, state);
+    };
     Bystanders pistons(contacts.pistons, true, contacts.impacts, state);
     double ratio = pistons.settle(step, [&](std::size_t k) {
         const PistonState& own = state.pistons[static_cast<std::size_t>(model.walls[contacts.pistons.b(k)].piston)];
@@ -118,11 +119,12 @@ double stand_beside_impacts(ContactNetwork& network, const State& state, const M
         for (std::int64_t t = 0; t < tiles; ++t) {
             const auto tile = static_cast<std::size_t>(t);
             const TileContacts &between = contacts.spheres[tile], &at_walls = contacts.walls[tile];
-            const double of_spheres = spheres(tile).settle(
-                step, [&](std::size_t k) { return state.motion[between.b(k)].velocity; });
+            const double of_spheres =
+                spheres(tile).settle(step, [&](std::size_t k) { return state.motion[between.b(k)].velocity; });
             const double of_walls = walls(tile).settle(step, [&](std::size_t k) {
-                return at_walls.has_moving_walls() ? Vec3(at_walls.wall(k).velocity - at_walls.wall(k).gain * at_walls.normal(k))
-                                                  : Vec3::Zero().eval();
+                return at_walls.has_moving_walls()
+                           ? Vec3(at_walls.wall(k).velocity - at_walls.wall(k).gain * at_walls.normal(k))
+                           : Vec3::Zero().eval();
             });
             ratio = std::max({ratio, of_spheres, of_walls});
         }

@@ -9,8 +9,8 @@
 namespace talus
 {
 
-/// Gives the contacts of spheres that have impacts the law that they have beside these, METHOD (4): those without a load
-/// are deferred to the next step, those with one bear.
+/// Gives the contacts of spheres that have impacts the law that they have beside these, METHOD (4): those without a
+/// load are deferred to the next step, those with one bear.
 /// @return the greatest ratio of a mass that strikes a sphere to the sphere's, where another contact bears it; 0: none
 double stand_beside_impacts(ContactNetwork& network, const State& state, const Model& model, const LawOfStep& step);
 

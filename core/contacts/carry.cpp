@@ -22,7 +22,8 @@ TouchRecord noted(const TileContacts& contacts, std::size_t k, double deep)
     if (along > 0.0 && geometry.kind == ContactKind::impact)
         touch.note_impact();
     else if (geometry.kind == ContactKind::yielding || (geometry.touch.is_jammed() && -geometry.gap > deep))
-        touch.note_yield(along > 0.0 && contacts.contact(k).target - terms.compliance * along < terms.parting);
+        touch.note_yield(along > 0.0 && -geometry.gap > jamming_overlap / jammed_overlap * deep &&
+                         contacts.contact(k).target - terms.compliance * along < terms.parting);
     else if (along > 0.0 && geometry.kind == ContactKind::open)
         touch.note_closing();
     else
@@ -75,7 +76,8 @@ ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, 
         const double kappa = compression_after<double>(own.compression, own.gap, u_n, along, own.restitution, law);
         const bool keeps_spring = kappa > touching_gap * law.min_diameter;
         if (own.kind == ContactKind::resting || own.kind == ContactKind::yielding)
-            outcome.push_out_energy += push_out_energy<double>(own.compression, own.gap, contacts.contact(k).target, along, law);
+            outcome.push_out_energy +=
+                push_out_energy<double>(own.compression, own.gap, contacts.contact(k).target, along, law);
         if (keeps_spring)
             outcome.stored_energy += spring_energy<double>(kappa, u_n, own.spring, terms.inverse_mass_sum, law);
         carried.contact[own.slot].impulse = (along > own.hands_on ? own.hands_on / along : 1.0) * impulse;

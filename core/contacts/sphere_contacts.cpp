@@ -22,8 +22,8 @@ ReachBall reach_ball(const State& state, std::size_t i, const StepConstants& ste
     return {{x.x(), x.y(), x.z()}, m.radius + std::max(0.5 * step.reach, step.horizon * m.velocity.norm())};
 }
 
-void note_impacts(
-    const ContactPack& pack, PackImpacts impacts, const std::vector<Motion>& motion, std::vector<SphereImpacts>& spheres)
+void note_impacts(const ContactPack& pack, PackImpacts impacts, const std::vector<Motion>& motion,
+    std::vector<SphereImpacts>& spheres)
 {
     for (; impacts.lanes != 0; impacts.lanes &= impacts.lanes - 1) {
         const int lane = std::countr_zero(impacts.lanes);

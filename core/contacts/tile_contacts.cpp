@@ -149,8 +149,8 @@ ContactTerms TileContacts::terms(std::size_t k) const
 {
     const ContactPack& pack = packs_[k / pack_size];
     const std::size_t lane = k % pack_size;
-    return {pack.arm_scale[lane], pack.friction[lane], pack.compliance[lane], pack.parting[lane], pack.normal_mass[lane],
-        pack.tangent_mass[lane], pack.inverse_mass_sum[lane]};
+    return {pack.arm_scale[lane], pack.friction[lane], pack.compliance[lane], pack.parting[lane],
+        pack.normal_mass[lane], pack.tangent_mass[lane], pack.inverse_mass_sum[lane]};
 }
 
 ContactGeometry TileContacts::geometry(std::size_t k) const

@@ -126,7 +126,8 @@ private:
             contacts_.set_rolling(
                 k, rolling_row(contacts_, k, law, m.radius, inverse_inertia(m), carried_.rolling_impulse[slot]));
         }
-        if (is_impact) impacts_[sphere].note(touch_.impact_size[lane], 0.0); // nothing is heavier than what stands still
+        if (is_impact)
+            impacts_[sphere].note(touch_.impact_size[lane], 0.0); // nothing is heavier than what stands still
         ++survey_.count;
         survey_.impacts += is_impact;
         survey_.stored_energy += touch_.stored_energy[lane];

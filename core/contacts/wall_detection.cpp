@@ -34,8 +34,7 @@ const std::vector<WallMeeting>& WallDetection::find(std::span<WallPair> pairs)
     const Vec3 x = place(sphere);
     const double radius = state_.radius(sphere);
     for (WallPair& pair : pairs)
-        if (walls_[pair.wall].stands())
-            add_points(pair, x, radius + touching_gap * step_.law.min_diameter);
+        if (walls_[pair.wall].stands()) add_points(pair, x, radius + touching_gap * step_.law.min_diameter);
     drop_hidden(0, 0, radius);
     const std::size_t touching = meetings_.size();
     for (WallPair& pair : pairs)
@@ -91,8 +90,9 @@ void WallDetection::drop_hidden(std::size_t from, std::size_t behind_all, double
         const WallPoint& point = meetings_[k].at;
         for (std::size_t j = 0; j < meetings_.size(); ++j) {
             const WallPoint& other = meetings_[j].at;
-            const bool nearer = j < behind_all || (j >= from && j != k && (other.distance < point.distance ||
-                                                                           (other.distance == point.distance && j < k)));
+            const bool nearer =
+                j < behind_all || (j >= from && j != k &&
+                                      (other.distance < point.distance || (other.distance == point.distance && j < k)));
             if (nearer && hides(other, point, radius)) return true;
         }
         return false;
@@ -137,8 +137,7 @@ WallTouch WallDetection::touch(const WallMeeting& meeting, std::uint32_t slot) c
     const Vec3& n = meeting.at.normal;
     const double gap = n.dot(x - meeting.at.point) - m.radius;
     const auto patch = static_cast<std::size_t>(meeting.at.patch);
-    const WallRow row =
-        wall.moves() ? WallRow{wall.velocity(patch, x - m.radius * n), wall.spin()} : WallRow{};
+    const WallRow row = wall.moves() ? WallRow{wall.velocity(patch, x - m.radius * n), wall.spin()} : WallRow{};
     const double gain = wall.moves() ? n.dot(row.velocity - wall.velocity_before(patch, x - m.radius * n)) : 0.0;
     const double u_n = n.dot(m.velocity - row.velocity);
     const double u_n_ahead = u_n + step_.law.h * n.dot(model_.gravity) - n.dot(wall.gain());

@@ -17,8 +17,7 @@ void project_on_disk(Eigen::Ref<Eigen::VectorXd> part, double radius)
 
 } // namespace
 
-void limit_parting(
-    const Constraint& constraint, double normal_impulse, double diagonal, Eigen::Ref<Eigen::VectorXd> y)
+void limit_parting(const Constraint& constraint, double normal_impulse, double diagonal, Eigen::Ref<Eigen::VectorXd> y)
 {
     const double rigid = diagonal - constraint.compliance;
     if (constraint.law != Law::contact || !std::isfinite(constraint.headroom) || rigid <= 0.0) return;

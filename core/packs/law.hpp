@@ -32,32 +32,36 @@ inline constexpr double least_restitution = 0.25;
 /// An impact below this share of a contact's load is light: the contact stays a spring beside it.
 inline constexpr double light_share = 0.1;
 
-/// A contact that overlaps more than this yields: it keeps nothing of what it bears; in diameters of its smaller sphere.
-/// One that its material makes softer than the sweeps would, yields at the same force, but at a quarter of a diameter.
+/// A contact that overlaps more than this yields: it keeps nothing of what it bears; in diameters of its smaller
+/// sphere. One that its material makes softer than the sweeps would, yields at the same force, but at a quarter of a
+/// diameter.
 inline constexpr double yield_overlap = 0.125;
 inline constexpr double most_yield_overlap = 0.25;
 /// Rigid contacts are so up to this, and bear what presses beyond; they keep nothing anyway.
-inline constexpr double rigid_yield_overlap = 0.022;
+inline constexpr double rigid_yield_overlap = 0.013;
 /// What has jammed yields until it overlaps less than this, in the same diameters.
 inline constexpr double jammed_overlap = 0.01;
 
+/// Jammed is what yields and cannot part when it overlaps more than this.
+inline constexpr double jamming_overlap = 0.022;
+
 /// Nearer to the centre of the smaller sphere than this a contact gets stiffer, up to the second; in its diameters.
 inline constexpr double stiffening_rest = 0.25;
-inline constexpr double least_rest = 2e-2;
+inline constexpr double least_rest = 3e-2;
 
 /// Overlap up to which a contact is deferred beside an impact, in diameters of the smaller sphere.
 inline constexpr double deferred_overlap = 0.4;
 
 /// What the laws of all contacts of a step share.
 struct LawOfStep {
-    double h;                        ///< of this step or sub-step [s]
-    double threshold_speed = 0.0;    ///< slowest impact: that of the whole step [m/s]
-    double elastic_speed = 0.0;      ///< opening so, a spring gives back all that it holds [m/s]
-    bool rigid = false;              ///< `projected`
-    double min_sweeps = 2.0;         ///< N_min
-    double push_out_speed = 0.0;     ///< p [m/s]
-    double parts = 1.0;              ///< sub-steps of the whole step
-    double min_diameter = 0.0;       ///< d_min [m]
+    double h;                     ///< of this step or sub-step [s]
+    double threshold_speed = 0.0; ///< slowest impact: that of the whole step [m/s]
+    double elastic_speed = 0.0;   ///< opening so, a spring gives back all that it holds [m/s]
+    bool rigid = false;           ///< `projected`
+    double min_sweeps = 2.0;      ///< N_min
+    double push_out_speed = 0.0;  ///< p [m/s]
+    double parts = 1.0;           ///< sub-steps of the whole step
+    double min_diameter = 0.0;    ///< d_min [m]
 };
 
 /// Yes or no for each of these numbers.
@@ -74,11 +78,11 @@ template <class N> struct NormalLaw {
 
 /// What the law of a contact depends on.
 template <class N> struct ContactEvent {
-    N gap;              ///< g [m]
-    N diameter;         ///< of the smaller sphere [m]
-    N u_n;              ///< of v⁽⁰⁾, before gravity [m/s] …
-    N u_n_before;       ///< … against the velocity that the wall had in the step before: 0 where a sphere goes with it
-    N closes;           ///< when the gap does so, with v⁽¹⁾ [s]
+    N gap;        ///< g [m]
+    N diameter;   ///< of the smaller sphere [m]
+    N u_n;        ///< of v⁽⁰⁾, before gravity [m/s] …
+    N u_n_before; ///< … against the velocity that the wall had in the step before: 0 where a sphere goes with it
+    N closes;     ///< when the gap does so, with v⁽¹⁾ [s]
     N inverse_mass_sum; ///< W [1/kg]
     N restitution;      ///< e
     N stiffness;        ///< k [N/m]
@@ -112,8 +116,7 @@ template <class N>
 [[gnu::always_inline]] inline N feedback_share(const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
 {
     const double parts_squared = step.parts * step.parts;
-    return smaller<N>(
-        N{} + 1.0, compliance / (parts_squared * sigma_per_sweep / step.min_sweeps * inverse_mass_sum));
+    return smaller<N>(N{} + 1.0, compliance / (parts_squared * sigma_per_sweep / step.min_sweeps * inverse_mass_sum));
 }
 
 /// What a spring holds [J]: ½ k (κ² + h κ u_n) + u_n²/(4 Σ_n) with k = 4 Υ/(Σ_n h²). With this a loaded spring beside
@@ -151,10 +154,12 @@ template <class N> [[gnu::always_inline]] inline N impact_size(const ContactEven
 
 /// By how much a contact overlaps when it begins to yield [m]. @param compliance of its spring
 template <class N>
-[[gnu::always_inline]] inline N elastic_overlap(const ContactEvent<N>& event, const N& compliance, const LawOfStep& step)
+[[gnu::always_inline]] inline N elastic_overlap(
+    const ContactEvent<N>& event, const N& compliance, const LawOfStep& step)
 {
     const N softness = compliance / (sigma_per_sweep / step.min_sweeps * event.inverse_mass_sum);
-    const N begins = event.jammed ? N{} + jammed_overlap : smaller<N>(N{} + most_yield_overlap, yield_overlap * softness);
+    const N begins =
+        event.jammed ? N{} + jammed_overlap : smaller<N>(N{} + most_yield_overlap, yield_overlap * softness);
     return event.diameter * (step.rigid ? N{} + rigid_yield_overlap : begins);
 }
 
@@ -173,7 +178,8 @@ template <class N>
 [[gnu::always_inline]] inline Answer<N> is_impact(const ContactEvent<N>& event, const LawOfStep& step)
 {
     const Answer<N> closes = touches<N>(event.gap, step) | (event.closes < N{} + step.h);
-    const Answer<N> settles = touches<N>(event.gap, step) & (-event.restitution * event.u_n < N{} + step.threshold_speed);
+    const Answer<N> settles =
+        touches<N>(event.gap, step) & (-event.restitution * event.u_n < N{} + step.threshold_speed);
     const Answer<N> unstopped = (-event.gap > deferred_overlap * event.diameter) | (event.struck & settles);
     return (event.u_n < N{} - step.threshold_speed) & closes & (event.load < load_share * impact_size<N>(event)) &
            (!unstopped);
@@ -194,7 +200,7 @@ template <class N>
     const ContactEvent<N>& event, const N& kappa, const N& before, const LawOfStep& step)
 {
     const N pushing = larger<N>(N{}, smaller<N>(N{} + step.push_out_speed, (-event.gap - before) / step.h));
-    return larger<N>(step.elastic_speed + pushing + event.restitution * kappa / step.h, -event.u_n_before);
+    return larger<N>(step.elastic_speed / 3.0 + pushing + event.restitution * kappa / step.h, -event.u_n_before);
 }
 
 /// The law of a contact where no impact is beside it, METHOD (4).
@@ -221,7 +227,8 @@ template <class N>
     const N target = gives_way ? pressed * per_way : alone;
     const Answer<N> keeps = step.rigid ? Answer<N>{} : is_spring | (rests & (event.u_n_before < least / step.h));
     return {impact ? -event.restitution * event.u_n : target,
-        gives_way ? compliance / stiffening<N>(event) : (step.rigid ? none : (rests | open ? (impact ? none : compliance) : none)),
+        gives_way ? (step.rigid ? 0.5 * sigma_per_sweep * event.inverse_mass_sum : compliance) / stiffening<N>(event)
+                  : (step.rigid ? none : (rests | open ? (impact ? none : compliance) : none)),
         gives_way ? alone : (is_spring ? spring_parting<N>(event, kappa, before, step) : infinite),
         keeps ? kappa : -infinite, gives_way};
 }
@@ -261,8 +268,8 @@ template <class N> [[gnu::always_inline]] inline N taken_over(const N& handed, c
 /// begin, e has a part in: it gives way 1/e² as fast (Walton & Braun 1986); pushing out is no part of that speed.
 /// @param gap at the beginning of the step [m]
 template <class N>
-[[gnu::always_inline]] inline N compression_after(const N& kappa, const N& gap, const N& u_n, const N& impulse,
-    const N& restitution, const LawOfStep& step)
+[[gnu::always_inline]] inline N compression_after(
+    const N& kappa, const N& gap, const N& u_n, const N& impulse, const N& restitution, const LawOfStep& step)
 {
     const N pushing = smaller<N>(N{} + step.push_out_speed, (-gap - kappa) / step.h);
     const N fast = larger<N>(N{}, u_n - step.elastic_speed - larger<N>(N{}, pushing));

@@ -95,9 +95,12 @@ template <int width>
 
     // A gap is laid where the spheres' free paths close it, or come nearest in this step.
     const Numbers<width> approach = -apart.dot(velocity), speed_squared = velocity.dot(velocity);
-    const Numbers<width> closes = closing_time<Numbers<width>>(approach, speed_squared, square - radii * radii, root<width>);
-    const Numbers<width> nearest = smaller<Numbers<width>>(none + step.law.h, approach / (speed_squared > 0.0 ? speed_squared : one));
-    const Flags<width> touching = touches<Numbers<width>>(distance - radii, step.law), ahead = (!touching) & (approach > 0.0);
+    const Numbers<width> closes =
+        closing_time<Numbers<width>>(approach, speed_squared, square - radii * radii, root<width>);
+    const Numbers<width> nearest =
+        smaller<Numbers<width>>(none + step.law.h, approach / (speed_squared > 0.0 ? speed_squared : one));
+    const Flags<width> touching = touches<Numbers<width>>(distance - radii, step.law),
+                       ahead = (!touching) & (approach > 0.0);
     const Numbers<width> instant = ahead ? smaller<Numbers<width>>(closes, nearest) : none;
     const Vector<width> then = apart + velocity * instant;
     const Numbers<width> distance_then = root<width>(then.dot(then));
@@ -152,8 +155,11 @@ template <int width>
     const Vector<width> carried = Vector<width>::load(touch.carried, first);
     const N w = number(contact.inverse_mass_sum), arm_scale = number(contact.arm_scale);
     const F pushed = load_flags<width>(touch.pushed + first);
-    const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.u_n), number(touch.u_n_before), number(touch.closes), w, number(touch.restitution),
-        number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts, taken_over<N>(number(touch.compression), number(touch.u_n_before), step.law), load_flags<width>(touch.struck + first), load_flags<width>(touch.jammed + first)};
+    const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.u_n), number(touch.u_n_before),
+        number(touch.closes), w, number(touch.restitution), number(touch.stiffness),
+        pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts,
+        taken_over<N>(number(touch.compression), number(touch.u_n_before), step.law),
+        load_flags<width>(touch.struck + first), load_flags<width>(touch.jammed + first)};
     const F closes = is_impact<N>(event, step.law), impact = closes & within_reach;
     const NormalLaw<N> law = normal_law<N>(event, impact, step.law);
     const Vector<width> warm = warm_impulse<width>(carried, normal, number(contact.friction), impact);
@@ -196,8 +202,8 @@ template <int width> void make_contacts(ContactPack& contact, TouchPack& touch, 
 
 /// What the spheres' materials and slots say of these touches.
 template <int width>
-[[gnu::always_inline]] inline void recall(ContactPack& contact, TouchPack& touch, RecordPack& record, int first,
-    const SphereNumbers& spheres)
+[[gnu::always_inline]] inline void recall(
+    ContactPack& contact, TouchPack& touch, RecordPack& record, int first, const SphereNumbers& spheres)
 {
     const double* laws[width];
     std::uint32_t slot[width];
@@ -304,7 +310,8 @@ HandedOn hand_on(const ContactPack& contact, RecordPack& record, double deep, co
         const N most = load_floats<width>(record.hands_on + first);
         const N share = along > most ? most / along : none + 1.0;
         const F is_deep = -gap > none + deep;
-        const F now = (along > 0.0) & (kind == std::int64_t{2} ? F{} + 2 : (kind == std::int64_t{1} ? F{} + 5 : F{} + 1));
+        const F now =
+            (along > 0.0) & (kind == std::int64_t{2} ? F{} + 2 : (kind == std::int64_t{1} ? F{} + 5 : F{} + 1));
         const F touch = is_deep ? widened<width>(record.touch + first) : now;
         narrow<width>(record.touch + first, touch);
         handed.deep_lanes |= bits<width>(is_deep) << first;

@@ -34,7 +34,8 @@ struct Meetings {
     double instant() const { return instants / impacts; }
 };
 
-/// Whether a contact may have an impulse that keeps a sphere from flying: not what is deferred, or parts after an impact.
+/// Whether a contact may have an impulse that keeps a sphere from flying: not what is deferred, or parts after an
+/// impact.
 bool holds(const TileContacts& contacts, std::size_t k)
 {
     const ContactKind kind = contacts.kind(k);

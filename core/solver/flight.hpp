@@ -10,9 +10,9 @@
 namespace talus
 {
 
-/// A sphere that has impacts with others in this step and no other contact, with gravity one with one that has no other:
-/// it flies with v⁽¹⁾ until it touches, at the instant τ, and with v after it. So an impact of two is exact: it keeps
-/// momentum, angular momentum and energy. τ of several is their mean.
+/// A sphere that has impacts with others in this step and no other contact, with gravity one with one that has no
+/// other: it flies with v⁽¹⁾ until it touches, at the instant τ, and with v after it. So an impact of two is exact: it
+/// keeps momentum, angular momentum and energy. τ of several is their mean.
 struct Flight {
     std::int32_t sphere;
     double instant; ///< τ [s] since the beginning of the step

@@ -44,8 +44,8 @@ Vec3 way_of(const Piston& piston, const PlacedWall& began, const State& state)
 }
 
 /// The level of a piston's surface goes with it. Returns what gravity holds more of both [J].
-double separate_from_piston(const Vec3& gravity,
-    const Contact& c, double wall_level, const Piston& piston, const PlacedWall& began, State& state, double share)
+double separate_from_piston(const Vec3& gravity, const Contact& c, double wall_level, const Piston& piston,
+    const PlacedWall& began, State& state, double share)
 {
     const double overlap = wall_level + c.normal.dot(way_of(piston, began, state) - state.position[c.a]);
     if (overlap <= 0.0) return 0.0;
@@ -82,8 +82,8 @@ double project_positions(
     for (const std::size_t k : pistons.indices()) {
         const Contact c = pistons.contact(k);
         const PlacedWall& wall = walls[c.b];
-        sum += separate_from_piston(model.gravity, c, pistons.geometry(k).wall_level,
-            model.pistons[wall.wall().piston], wall, state, share);
+        sum += separate_from_piston(
+            model.gravity, c, pistons.geometry(k).wall_level, model.pistons[wall.wall().piston], wall, state, share);
     }
     return sum;
 }

@@ -75,8 +75,8 @@ std::vector<Incident> find_presses(const ContactNetwork& network, const State& s
 
     std::vector<Incident> incidents;
     for (const auto& [group, press] : presses) {
-        const bool is_driven = std::ranges::any_of(
-            press.walls, [&](std::int32_t wall) { return !model.walls[wall].motion.empty(); });
+        const bool is_driven =
+            std::ranges::any_of(press.walls, [&](std::int32_t wall) { return !model.walls[wall].motion.empty(); });
         if (!press.is_new || press.is_known || !is_driven) continue;
         incidents.push_back({.kind = Incident::Kind::pressed,
             .id = state.id[press.sphere],

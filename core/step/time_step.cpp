@@ -21,9 +21,9 @@ namespace
 
 constexpr std::int64_t audit_interval = 16;         ///< steps; gains of contacts are looked for in one of so many
 constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
-constexpr double usual_ratio = 10.0;                 ///< of masses in an impact on what bears
+constexpr double usual_ratio = 10.0;                ///< of masses in an impact on what bears
 constexpr double most_sweeps = 1e5;
-constexpr std::size_t few_spheres = 1000;           ///< that one thread takes faster than several
+constexpr std::size_t few_spheres = 1000; ///< that one thread takes faster than several
 
 /// Brings the spheres into the order of a space-filling curve now and then, for the sake of the cache.
 void renumber_along_curve(State& state, ContactNetwork& network, const Model& model)

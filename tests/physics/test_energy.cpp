@@ -96,8 +96,8 @@ TEST_CASE(
 TEST_CASE("without friction restitution takes what it should, and elastic spheres keep their energy",
     "[energy][dissipation][restitution]")
 {
-    // A rigid contact changes H by ½ λ_n (u_n⁺ + u_n⁻), which is never above zero: for an impact ½ λ_n (1 − e) u_n⁻ ≤ 0.
-    // What rises is what `projected` lifts. What is lost beyond (1 − e²) is where contacts bear impacts beside them.
+    // A rigid contact changes H by ½ λ_n (u_n⁺ + u_n⁻), which is never above zero: for an impact ½ λ_n (1 − e) u_n⁻ ≤
+    // 0. What rises is what `projected` lifts. What is lost beyond (1 − e²) is where contacts bear impacts beside them.
     const double e = GENERATE(0.5, 0.9, 1.0);
     constexpr int blocks = 100;
     int unusual = 0;

@@ -71,8 +71,8 @@ TEST_CASE("a roller draws grains through a gap a little narrower than they are",
 
 TEST_CASE("a roller that touches the floor crushes what it grips, and shoots nothing away", "[press][!mayfail]")
 {
-    // With friction 0.8 it draws in what it touches, with 0.2 it pushes it on. What yields parts with p at most from the
-    // roller's surface.
+    // With friction 0.8 it draws in what it touches, with 0.2 it pushes it on. What yields parts with p at most from
+    // the roller's surface.
     const auto law = GENERATE(Stabilisation::matched, Stabilisation::projected);
     const double friction = GENERATE(0.2, 0.8);
     World world = roller_over_floor(0.0, friction, law);

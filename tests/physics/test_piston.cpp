@@ -174,8 +174,8 @@ TEST_CASE("a falling plate and a sphere part with e times the speed at which the
 TEST_CASE("a plate that its load sets going stops at a sphere a step later where another strikes this one meanwhile",
     "[physics][piston]")
 {
-    // The load closes four times the gap. What has no load beside an impact is deferred: the plate goes on in this step,
-    // and stops at the sphere in the next one. Momentum along z is what the load gave.
+    // The load closes four times the gap. What has no load beside an impact is deferred: the plate goes on in this
+    // step, and stops at the sphere in the next one. Momentum along z is what the load gave.
     ContactLaw law;
     law.restitution = 0.5;
     law.friction = 0.0;

@@ -37,7 +37,8 @@ double squeeze(World& world, double move)
 
 } // namespace
 
-TEST_CASE("a heavy ball that meets a light one on the floor gets no energy, and does not pass it", "[stabilisation][!mayfail]")
+TEST_CASE("a heavy ball that meets a light one on the floor gets no energy, and does not pass it",
+    "[stabilisation][!mayfail]")
 {
     // What pushing out adds is told in the books; 0.5 % at most here.
     const double ratio = GENERATE(100.0, 3000.0), e = GENERATE(0.0, 0.4, 0.9);

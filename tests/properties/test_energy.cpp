@@ -62,7 +62,8 @@ Books make_counted_part(World& world, int parts)
     const Bodies after = bodies_of(world);
     const double springs_before = books.report.contacts.stored_energy,
                  springs_after = books.report.outcome.stored_energy;
-    const double fallen = 0.5 * h * (before.power + after.power), walls = books.report.outcome.wall_work + books.report.outcome.wall_gain_work;
+    const double fallen = 0.5 * h * (before.power + after.power),
+                 walls = books.report.outcome.wall_work + books.report.outcome.wall_gain_work;
     books.change = after.kinetic - before.kinetic - fallen;
     books.rise = books.change + springs_after - springs_before - walls;
     const double still = 1e-9 * world.model.min_diameter / h; // slower than this is at rest
@@ -260,12 +261,14 @@ TEST_CASE("P1 without friction and push-out no step adds energy", "[energy]")
     hold("energy", [](std::uint64_t seed) { return energy_of_a_step(seed, {{.friction = false, .push_out = false}}); });
 }
 
-TEST_CASE("P1 the books say what springs hold, what pushing out puts in, and what positions are lifted by", "[energy][!mayfail]")
+TEST_CASE("P1 the books say what springs hold, what pushing out puts in, and what positions are lifted by",
+    "[energy][!mayfail]")
 {
     hold("books", books_are_right);
 }
 
-TEST_CASE("P1 where walls leave no room all stays finite, energy is what they put in, and it is told", "[press][!mayfail]")
+TEST_CASE(
+    "P1 where walls leave no room all stays finite, energy is what they put in, and it is told", "[press][!mayfail]")
 {
     hold("press", pressed, 0.1); // some hundred steps each
 }

@@ -310,8 +310,8 @@ Verdict ruled_alike_in_parts(std::uint64_t seed)
 
 } // namespace
 
-TEST_CASE(
-    "P2 what is far away changes no bit of a step, and by the stopping rule no more than its tolerance", "[locality][!mayfail]")
+TEST_CASE("P2 what is far away changes no bit of a step, and by the stopping rule no more than its tolerance",
+    "[locality][!mayfail]")
 {
     hold("locality", unmoved_by_what_is_far);
 }

@@ -129,8 +129,8 @@ TEST_CASE("no two contacts of a pack share a sphere, and those of large tiles ar
 
 TEST_CASE("a contact asks for its parting speed at most, and friction is within the cone of that", "[packed_sweep]")
 {
-    // Eight pairs of like spheres that close with 1 m/s along n, and slide with as much across it: each asks to part with
-    // 1 m/s, and so has the impulse 2/W. W = 2/kg, and with spin tangents have 3.5 W.
+    // Eight pairs of like spheres that close with 1 m/s along n, and slide with as much across it: each asks to part
+    // with 1 m/s, and so has the impulse 2/W. W = 2/kg, and with spin tangents have 3.5 W.
     constexpr double w = 2.0, friction = 0.5;
     const auto lane = static_cast<std::size_t>(GENERATE(range(0, pack_size)));
     const double parting = GENERATE(-2.0, -1.0, 0.0, 0.9, 1.1, infinity);

@@ -356,10 +356,10 @@ TEST_CASE("contacts hand on their impulses and what their springs keep, impacts 
             CHECK_FALSE(own.touch.is_jammed());
         }
 
-        // A solved row tells u_n: q − Σ λ. From it a spring knows what is left of it.
-        const double u_n = contact.target[lane] - contact.compliance[lane] * along;
-        const double kappa = compression_after<double>(
-            solved.record.compression[lane], solved.record.gap[lane], u_n, along, solved.record.restitution[lane], step);
+        // A solved row tells u_n: q − Σ λ, or its parting speed. From it a spring knows what is left of it.
+        const double u_n = std::min(contact.target[lane] - contact.compliance[lane] * along, contact.parting[lane]);
+        const double kappa = compression_after<double>(solved.record.compression[lane], solved.record.gap[lane], u_n,
+            along, solved.record.restitution[lane], step);
         const bool keeps = kappa > touching_gap * step.min_diameter;
         CHECK(own.compression == Approx(static_cast<float>(handed_on<double>(kappa, u_n, step))));
         CHECK((own.compression > 0.0F) == keeps);

@@ -296,7 +296,10 @@ namespace
 void check_against_oracle(World& world, int sweeps)
 {
     const Model& model = world.model;
-    begin(world);
+    for (int k = 0; k == 0 || (k < 100 && !has_kind(world.network, ContactKind::impact)); ++k) {
+        if (k > 0) world.step();
+        begin(world);
+    }
     let_part(world.network);
     const auto contacts = dense_contacts(world.network);
     REQUIRE(contacts.size() > 15);
