@@ -241,15 +241,10 @@ TEST_CASE("a correction takes energy out and ends where it is least", "[pressure
 
 TEST_CASE("a solution is left as it is", "[pressure_scaling]")
 {
-    // At a solution λ·y = 0 in every contact, so α = 0 whatever the hats; with Σ λ in y where a contact is jammed.
-    const int k = GENERATE(range(0, variants + 1));
+    // At a solution λ·y = 0 in every contact, so α = 0 whatever the hats.
+    const int k = GENERATE(range(0, variants));
     CAPTURE(k);
-    World world = variant(k < variants ? k : 1);
-    if (k == variants)
-        for (Tile& tile : world.network.list.tiles.tiles)
-            for (CarriedContact& carried : tile.carried.contact)
-                if (carried.touch.is_loaded()) carried.touch.note_crushed();
-    WarmStep step(std::move(world));
+    WarmStep step(variant(k));
     SolverSettings solver = step.world.model.solver;
     solver.tolerance = 1e-9;
     solver.max_sweeps = 100000;
