@@ -13,16 +13,17 @@ namespace
 {
 
 /// What this step adds to the record of a contact.
-TouchRecord noted(const TileContacts& contacts, std::size_t k, double deep)
+TouchRecord noted(const TileContacts& contacts, std::size_t k, const LawOfStep& law)
 {
     const ContactGeometry geometry = contacts.geometry(k);
     const double along = contacts.impulse(k).dot(contacts.normal(k));
     const ContactTerms terms = contacts.terms(k);
+    const double overlap = -geometry.gap / law.min_diameter;
     TouchRecord touch = geometry.touch;
     if (along > 0.0 && geometry.kind == ContactKind::impact)
         touch.note_impact();
-    else if (geometry.kind == ContactKind::yielding || (geometry.touch.is_jammed() && -geometry.gap > deep))
-        touch.note_yield(along > 0.0 && -geometry.gap > jamming_overlap / jammed_overlap * deep &&
+    else if (geometry.kind == ContactKind::yielding || (touch.is_jammed() && overlap > jammed_overlap))
+        touch.note_yield(along > 0.0 && overlap > jamming_overlap &&
                          contacts.contact(k).target - terms.compliance * along < terms.parting);
     else if (along > 0.0 && geometry.kind == ContactKind::open)
         touch.note_closing();
@@ -32,19 +33,18 @@ TouchRecord noted(const TileContacts& contacts, std::size_t k, double deep)
 }
 
 /// What the contacts between the spheres of a tile hand on.
-ContactOutcome carry_between_spheres(
-    TileContacts& contacts, CarriedImpulses& carried, double deep, const LawOfStep& law)
+ContactOutcome carry_between_spheres(TileContacts& contacts, CarriedImpulses& carried, const LawOfStep& law)
 {
     ContactOutcome outcome;
     auto* const records = reinterpret_cast<double*>(carried.contact.data());
     for (std::size_t p = 0; p < contacts.packs(); ++p) {
-        HandedOn handed = fastest_kernels().touch.hand_on(contacts.pack(p), contacts.record(p), deep, law, records);
+        HandedOn handed = fastest_kernels().touch.hand_on(contacts.pack(p), contacts.record(p), law, records);
         outcome.cone_violation = std::max(outcome.cone_violation, handed.cone_violation);
         outcome.stored_energy += handed.stored_energy;
         outcome.push_out_energy += handed.push_out_energy;
         for (unsigned lanes = handed.deep_lanes; lanes != 0; lanes &= lanes - 1) {
             const std::size_t k = pack_size * p + static_cast<std::size_t>(std::countr_zero(lanes));
-            const TouchRecord touch = noted(contacts, k, deep);
+            const TouchRecord touch = noted(contacts, k, law);
             contacts.set_touch(k, touch);
             carried.contact[contacts.geometry(k).slot].touch = touch;
             if (touch.is_newly_jammed()) ++outcome.newly_jammed;
@@ -59,7 +59,7 @@ ContactOutcome carry_between_spheres(
 }
 
 /// The same of those with walls, one by one.
-ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, double deep, const LawOfStep& law)
+ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, const LawOfStep& law)
 {
     ContactOutcome outcome;
     for (const std::size_t k : contacts.indices()) {
@@ -67,7 +67,7 @@ ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, 
         const ContactTerms terms = contacts.terms(k);
         const double along = impulse.dot(normal), tangent_impulse = (impulse - along * normal).norm();
         outcome.cone_violation = std::max(outcome.cone_violation, tangent_impulse - terms.friction * along);
-        const TouchRecord touch = noted(contacts, k, deep);
+        const TouchRecord touch = noted(contacts, k, law);
         contacts.set_touch(k, touch);
         if (touch.is_newly_jammed()) ++outcome.newly_jammed;
 
@@ -128,7 +128,7 @@ ContactOutcome& ContactOutcome::operator+=(const ContactOutcome& other)
 
 ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model, const StepLength& length)
 {
-    const double h = length.h(), deep = jammed_overlap * model.min_diameter;
+    const double h = length.h();
     const LawOfStep law = law_of_step(model, length);
     StepContacts& contacts = network.contacts;
     const auto tiles = static_cast<std::int64_t>(contacts.spheres.size());
@@ -138,8 +138,8 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
         const auto tile = static_cast<std::size_t>(t);
         auto& outcome = outcomes[tile];
         TileContacts& walls = contacts.walls[tile];
-        outcome = carry_between_spheres(contacts.spheres[tile], network.list.tiles.tiles[tile].carried, deep, law);
-        outcome += carry_at_walls(walls, network.carried.walls, deep, law);
+        outcome = carry_between_spheres(contacts.spheres[tile], network.list.tiles.tiles[tile].carried, law);
+        outcome += carry_at_walls(walls, network.carried.walls, law);
         if (walls.has_moving_walls())
             for (const std::size_t k : walls.indices()) {
                 const WallRow wall = walls.wall(k);
@@ -153,7 +153,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
     }
     ContactOutcome all;
     for (const auto& outcome : outcomes) all += outcome;
-    all += carry_at_walls(contacts.pistons, network.carried.walls, deep, law);
+    all += carry_at_walls(contacts.pistons, network.carried.walls, law);
     all.from_pistons = load_from(contacts.pistons, state, h);
     note_walls_touched(contacts.pistons, state);
     return all;

@@ -57,6 +57,7 @@ public:
         touch_.jammed[lane] = -static_cast<std::int64_t>(carried.touch.is_jammed());
         touch_.gap[lane] = at.gap;
         touch_.diameter[lane] = 2.0 * state_.radius(at.sphere);
+        touch_.reduced_radius[lane] = state_.radius(at.sphere);
         touch_.u_n[lane] = at.u_n;
         touch_.u_n_before[lane] = at.u_n_before;
         touch_.closes[lane] = at.closes;

@@ -54,9 +54,9 @@ struct TouchKernel {
     /// Makes contacts of touches that have been found.
     void (*make_contacts)(ContactPack& contact, TouchPack& touch, const StepConstants& step) = nullptr;
     /// Stores what the contacts of a pack between spheres hand on. Touch records of those that overlap by more than
-    /// `deep` [m] stay as they are, and their lanes are reported. @param carried as in SphereNumbers
+    /// jammed_overlap stay as they are, and their lanes are reported. @param carried as in SphereNumbers
     HandedOn (*hand_on)(
-        const ContactPack& contact, RecordPack& record, double deep, const LawOfStep& law, double* carried) = nullptr;
+        const ContactPack& contact, RecordPack& record, const LawOfStep& law, double* carried) = nullptr;
 };
 
 /// The kernels for one instruction set, the sweep's by Rows::index.

@@ -32,18 +32,20 @@ inline constexpr double least_restitution = 0.25;
 /// An impact below this share of a contact's load is light: the contact stays a spring beside it.
 inline constexpr double light_share = 0.1;
 
-/// A contact that overlaps more than this yields: it keeps nothing of what it bears; in diameters of its smaller
-/// sphere. One that its material makes softer than the sweeps would, yields at the same force, but at a quarter of a
-/// diameter.
-inline constexpr double yield_overlap = 0.125;
-inline constexpr double most_yield_overlap = 0.25;
-/// Rigid contacts are so up to this, and bear what presses beyond; they keep nothing anyway.
-inline constexpr double rigid_yield_overlap = 0.013;
-/// What has jammed yields until it overlaps less than this, in the same diameters.
+/// A contact that overlaps more than this yields, in reduced radii R*: it keeps nothing of what it bears. One that
+/// closes faster than impacts begin does so at the second. What strains a contact is the root of overlap over R*
+/// (Hertz).
+inline constexpr double yield_overlap = 0.25;
+inline constexpr double fast_yield_overlap = 0.1;
+/// What yields and cannot part, deeper than this, has jammed: it yields until it is shallower than the second; in
+/// smallest diameters.
+inline constexpr double jamming_overlap = 0.02;
 inline constexpr double jammed_overlap = 0.01;
 
-/// Jammed is what yields and cannot part when it overlaps more than this.
-inline constexpr double jamming_overlap = 0.022;
+/// Rigid contacts get softer with the fourth power of their overlap, up to this, in diameters of the smaller sphere,
+/// and up to this compliance, in inverse mass sums; what they overlap beyond it presses them apart.
+inline constexpr double rigid_yield_overlap = 0.016;
+inline constexpr double rigid_softness = 0.1;
 
 /// Nearer to the centre of the smaller sphere than this a contact gets stiffer, up to the second; in its diameters.
 inline constexpr double stiffening_rest = 0.25;
@@ -78,11 +80,12 @@ template <class N> struct NormalLaw {
 
 /// What the law of a contact depends on.
 template <class N> struct ContactEvent {
-    N gap;        ///< g [m]
-    N diameter;   ///< of the smaller sphere [m]
-    N u_n;        ///< of v⁽⁰⁾, before gravity [m/s] …
-    N u_n_before; ///< … against the velocity that the wall had in the step before: 0 where a sphere goes with it
-    N closes;     ///< when the gap does so, with v⁽¹⁾ [s]
+    N gap;            ///< g [m]
+    N diameter;       ///< of the smaller sphere [m]
+    N reduced_radius; ///< R* = r_a r_b/(r_a + r_b); at a wall r_a [m]
+    N u_n;            ///< of v⁽⁰⁾, before gravity [m/s] …
+    N u_n_before;     ///< … against the velocity that the wall had in the step before: 0 where a sphere goes with it
+    N closes;         ///< when the gap does so, with v⁽¹⁾ [s]
     N inverse_mass_sum; ///< W [1/kg]
     N restitution;      ///< e
     N stiffness;        ///< k [N/m]
@@ -152,15 +155,21 @@ template <class N> [[gnu::always_inline]] inline N impact_size(const ContactEven
     return (1.0 + event.restitution) * larger<N>(N{}, -event.u_n) / event.inverse_mass_sum;
 }
 
-/// By how much a contact overlaps when it begins to yield [m]. @param compliance of its spring
-template <class N>
-[[gnu::always_inline]] inline N elastic_overlap(
-    const ContactEvent<N>& event, const N& compliance, const LawOfStep& step)
+/// By how much a contact overlaps when it begins to yield [m].
+template <class N> [[gnu::always_inline]] inline N elastic_overlap(const ContactEvent<N>& event, const LawOfStep& step)
 {
-    const N softness = compliance / (sigma_per_sweep / step.min_sweeps * event.inverse_mass_sum);
-    const N begins =
-        event.jammed ? N{} + jammed_overlap : smaller<N>(N{} + most_yield_overlap, yield_overlap * softness);
-    return event.diameter * (step.rigid ? N{} + rigid_yield_overlap : begins);
+    const Answer<N> is_fast = event.u_n_before < N{} - step.elastic_speed;
+    const N begins = event.reduced_radius * (is_fast ? N{} + fast_yield_overlap : N{} + yield_overlap);
+    const N bounded = event.jammed ? N{} + jammed_overlap * step.min_diameter : begins;
+    return step.rigid ? rigid_yield_overlap * event.diameter : bounded;
+}
+
+/// Σ_n of a rigid contact: so small where it is shallow that nobody sees it, but where walls leave too little room,
+/// impulses that no velocity obeys do not grow with every sweep.
+template <class N> [[gnu::always_inline]] inline N rigid_compliance(const ContactEvent<N>& event)
+{
+    const N part = smaller<N>(N{} + 1.0, -event.gap / (rigid_yield_overlap * event.diameter)), square = part * part;
+    return rigid_softness * square * square * event.inverse_mass_sum;
 }
 
 /// How many times stiffer a contact is that yields: none is as deep as the centre of its smaller sphere.
@@ -213,7 +222,7 @@ template <class N>
     const N share = step.parts > 1.0 ? feedback_share<N>(compliance, event.inverse_mass_sum, step) : none + 1.0;
     const N per_way = 4.0 * upsilon / step.h * share; // of feedback: the speed that it asks for, by κ
 
-    const Answer<N> open = event.gap > least, yields = -event.gap > elastic_overlap<N>(event, compliance, step);
+    const Answer<N> open = event.gap > least, yields = -event.gap > elastic_overlap<N>(event, step);
     const Answer<N> rests = !(open | yields | impact);
     const N before = event.compression > least ? event.compression : none;
     const N kappa = smaller<N>(-event.gap, before + step.h * step.push_out_speed);
@@ -222,15 +231,17 @@ template <class N>
     const N push = open ? -event.gap / step.h : (step.rigid ? none : (yields ? pushing : per_way * kappa));
 
     const N alone = is_spring ? push : passive_target<N>(push, event.u_n_before);
-    const Answer<N> gives_way = yields & !impact; // like a spring that its whole overlap has pressed
+    // What gives way does so like a spring that all of its overlap has pressed, but parts no faster than it would
+    // alone.
+    const Answer<N> gives_way = !(impact | (step.rigid ? open : !yields));
     const N pressed = -event.gap - (step.rigid ? rigid_yield_overlap * event.diameter : none);
-    const N target = gives_way ? pressed * per_way : alone;
+    const N target = gives_way ? larger<N>(alone, pressed * per_way) : alone;
+    const N soft = (step.rigid ? rigid_compliance<N>(event) : compliance) / stiffening<N>(event);
     const Answer<N> keeps = step.rigid ? Answer<N>{} : is_spring | (rests & (event.u_n_before < least / step.h));
     return {impact ? -event.restitution * event.u_n : target,
-        gives_way ? (step.rigid ? 0.5 * sigma_per_sweep * event.inverse_mass_sum : compliance) / stiffening<N>(event)
-                  : (step.rigid ? none : (rests | open ? (impact ? none : compliance) : none)),
-        gives_way ? alone : (is_spring ? spring_parting<N>(event, kappa, before, step) : infinite),
-        keeps ? kappa : -infinite, gives_way};
+        gives_way ? soft : (step.rigid | impact ? none : compliance),
+        gives_way & (target > alone) ? alone : (is_spring ? spring_parting<N>(event, kappa, before, step) : infinite),
+        keeps ? kappa : -infinite, yields & !impact};
 }
 
 /// A contact that had no load beside an impact of one of its spheres is deferred: it does not close further than to a

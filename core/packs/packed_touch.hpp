@@ -115,6 +115,7 @@ template <int width>
     store<width>(contact.inverse_mass_sum + first, a[3] + b[3]);
     store<width>(touch.gap + first, gap);
     store<width>(touch.diameter + first, 2.0 * smaller<Numbers<width>>(a[7], b[7]));
+    store<width>(touch.reduced_radius + first, a[7] * b[7] / radii);
     store<width>(touch.u_n + first, u_n); // gravity is the same for both
     store<width>(touch.u_n_before + first, u_n);
     store<width>(touch.closes + first, closes);
@@ -155,9 +156,9 @@ template <int width>
     const Vector<width> carried = Vector<width>::load(touch.carried, first);
     const N w = number(contact.inverse_mass_sum), arm_scale = number(contact.arm_scale);
     const F pushed = load_flags<width>(touch.pushed + first);
-    const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.u_n), number(touch.u_n_before),
-        number(touch.closes), w, number(touch.restitution), number(touch.stiffness),
-        pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts,
+    const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.reduced_radius),
+        number(touch.u_n), number(touch.u_n_before), number(touch.closes), w, number(touch.restitution),
+        number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts,
         taken_over<N>(number(touch.compression), number(touch.u_n_before), step.law),
         load_flags<width>(touch.struck + first), load_flags<width>(touch.jammed + first)};
     const F closes = is_impact<N>(event, step.law), impact = closes & within_reach;
@@ -276,7 +277,7 @@ PackImpacts touch_spheres(
 }
 
 template <int width>
-HandedOn hand_on(const ContactPack& contact, RecordPack& record, double deep, const LawOfStep& law, double* carried)
+HandedOn hand_on(const ContactPack& contact, RecordPack& record, const LawOfStep& law, double* carried)
 {
     using N = Numbers<width>;
     using F = Flags<width>;
@@ -309,7 +310,7 @@ HandedOn hand_on(const ContactPack& contact, RecordPack& record, double deep, co
 
         const N most = load_floats<width>(record.hands_on + first);
         const N share = along > most ? most / along : none + 1.0;
-        const F is_deep = -gap > none + deep;
+        const F is_deep = -gap > none + jammed_overlap * law.min_diameter;
         const F now =
             (along > 0.0) & (kind == std::int64_t{2} ? F{} + 2 : (kind == std::int64_t{1} ? F{} + 5 : F{} + 1));
         const F touch = is_deep ? widened<width>(record.touch + first) : now;

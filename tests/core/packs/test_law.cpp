@@ -39,7 +39,7 @@ LawOfStep rigid()
 /// A contact with W = 2/kg and e = 0.4 between rigid spheres.
 ContactEvent<double> event(double gap, double u_n, double load = 0.0, double compression = 0.0)
 {
-    return {gap, d, u_n, u_n, nowhere, w, 0.4, infinity, load, compression, false, false};
+    return {gap, d, 0.25 * d, u_n, u_n, nowhere, w, 0.4, infinity, load, compression, false, false};
 }
 
 /// Σ_n of that contact.
@@ -56,6 +56,13 @@ bool impact(double gap, double u_n, double closes, double load = 0.0, double res
 NormalLaw<double> law_of(const ContactEvent<double>& at, const LawOfStep& step, bool is_impact = false)
 {
     return normal_law<double>(at, is_impact, step);
+}
+
+/// The u_n that a contact asks for which bears nothing.
+double most_asked(const ContactEvent<double>& at, const LawOfStep& step)
+{
+    const auto law = law_of(at, step);
+    return std::min(law.target, law.parting);
 }
 
 double closing(const Vec3& across, const Vec3& velocity, double radii)
@@ -195,9 +202,18 @@ TEST_CASE("a rigid contact stops what comes, and does not hold what leaves", "[l
 {
     const auto law = law_of(event(-1e-5, -0.09, 0.0, 1e-5), rigid());
     CHECK(law.target == 0.0);
-    CHECK(law.compliance == 0.0);
     CHECK(law.parting == infinity);
-    CHECK(law_of(event(-1e-5, 0.5, 0.05), rigid()).target == -0.5); // and so takes no energy in
+    CHECK(most_asked(event(-1e-5, 0.5, 0.05), rigid()) == -0.5); // and so takes no energy in
+}
+
+TEST_CASE("a rigid contact is so where it is shallow", "[law][stabilisation][press]")
+{
+    const auto compliance = [](double overlap) { return law_of(event(-overlap * d, -0.1), rigid()).compliance / w; };
+    CHECK(compliance(0.0) == 0.0);
+    CHECK(compliance(1e-4) < 1e-9);
+    CHECK(compliance(0.5 * rigid_yield_overlap) == Approx(rigid_softness / 16));
+    CHECK(compliance(rigid_yield_overlap) == Approx(rigid_softness));
+    CHECK(compliance(0.2) == Approx(rigid_softness));
 }
 
 TEST_CASE("against a wall that gets faster a contact is passive as its sphere was, and an impact as it is",
@@ -210,7 +226,7 @@ TEST_CASE("against a wall that gets faster a contact is passive as its sphere wa
         return law_of(at, step, is_impact);
     };
     CHECK(of(-1e-5, 0.0, rigid()).target == 0.0);
-    CHECK(of(-1e-5, 0.2, rigid()).target == -0.2);
+    CHECK(std::min(of(-1e-5, 0.2, rigid()).target, of(-1e-5, 0.2, rigid()).parting) == -0.2);
     CHECK(of(1e-5, 0.2, matched()).target == -0.2);
     CHECK(of(-1e-5, 0.0, matched()).compression == 1e-5);
     CHECK(of(-1e-5, 0.05, matched()).compression == -infinity);
@@ -220,16 +236,15 @@ TEST_CASE("against a wall that gets faster a contact is passive as its sphere wa
 namespace
 {
 
-/// Where a contact of this stiffness begins to yield, in d: sought.
-double yields_at(double stiffness, double diameter = d)
+/// Where a contact that closes so fast begins to yield, in reduced radii: sought.
+double yields_at(double u_n, double reduced_radius = 0.25 * d)
 {
     double shallow = 0.0, deep = 0.5;
     for (int k = 0; k < 60; ++k) {
         const double middle = 0.5 * (shallow + deep);
-        auto at = event(-middle * d, -0.1);
-        at.stiffness = stiffness;
-        at.diameter = diameter;
-        (law_of(at, matched()).parting < infinity ? deep : shallow) = middle;
+        auto at = event(-middle * reduced_radius, u_n);
+        at.reduced_radius = reduced_radius;
+        (law_of(at, matched()).yields ? deep : shallow) = middle;
     }
     return deep;
 }
@@ -239,18 +254,19 @@ double yields_at(double stiffness, double diameter = d)
 TEST_CASE("a deep contact yields: it bears as a spring that all of its overlap has pressed, and parts with p at most",
     "[law][stabilisation][press]")
 {
-    CHECK(yields_at(infinity) == Approx(yield_overlap));
-    CHECK(yields_at(infinity, 2 * d) == Approx(2 * yield_overlap)); // in diameters of the smaller sphere
-
     LawOfStep step = matched();
-    const double overlap = (yield_overlap + 1e-9) * d;
+    CHECK(yields_at(-0.9 * step.elastic_speed) == Approx(yield_overlap));
+    CHECK(yields_at(-1.1 * step.elastic_speed) == Approx(fast_yield_overlap));
+    CHECK(yields_at(0.0, 0.5 * d) == Approx(yield_overlap)); // at a wall
+
+    const double overlap = (yield_overlap + 1e-9) * 0.25 * d;
     const auto barely = law_of(event(-overlap, -0.1, 1.0, d), step);
     CHECK(barely.compliance == sigma);
     CHECK(barely.target == Approx(4.0 / 9.0 * overlap / h));
     CHECK(barely.compression == -infinity);
     CHECK(barely.parting == step.push_out_speed);
     step.push_out_speed = infinity; // then as fast as a spring that is compressed by all of its overlap
-    CHECK(law_of(event(-0.2 * d, -1.0), step).parting == Approx(4.0 / 9.0 * 0.2 * d / h));
+    CHECK(most_asked(event(-0.2 * d, -1.0), step) == Approx(4.0 / 9.0 * 0.2 * d / h));
     CHECK(law_of(event(-0.2 * d, 0.2), matched()).parting <= 0.0); // it adds no energy: what parts is left to do so
 
     // Deeper than a quarter it gets stiffer, with one over the square of how far the centre is, at half a diameter of
@@ -268,35 +284,14 @@ TEST_CASE("a deep contact yields: it bears as a spring that all of its overlap h
 
 TEST_CASE("what has jammed yields until it is shallow", "[law][stabilisation][press]")
 {
-    for (const LawOfStep& step : {matched(), rigid()})
-        for (const bool jammed : {false, true}) {
-            const double begins = step.rigid ? rigid_yield_overlap : jammed ? jammed_overlap : yield_overlap;
-            const auto at = [&](double overlap) {
-                ContactEvent<double> event_at = event(-overlap * d, -0.1);
-                event_at.jammed = jammed;
-                return law_of(event_at, step);
-            };
-            CHECK(at(begins - 1e-9).parting == infinity);
-            CHECK(at(begins + 1e-9).parting < infinity);
-        }
-}
-
-TEST_CASE("a contact of soft material yields deeper, at the same force, but at a quarter of a diameter",
-    "[law][stabilisation][press]")
-{
-    const double stiffest = 4.0 / 9.0 / (sigma * h * h); // that sweeps can carry
-    CHECK(yields_at(2.0 * stiffest) == Approx(yield_overlap));
-    CHECK(yields_at(0.5 * stiffest) == Approx(2 * yield_overlap));
-    CHECK(yields_at(0.01 * stiffest) == Approx(0.25));
-    // At rest it bears k times its overlap, as a spring would.
-    const auto bears = [](double stiffness, double overlap) {
-        auto at = event(-overlap * d, -0.1);
-        at.stiffness = stiffness;
-        const auto law = law_of(at, matched());
-        return law.target / law.compliance / h;
+    const auto yields = [](double overlap, bool jammed) {
+        ContactEvent<double> at = event(-overlap, -1e-9);
+        at.jammed = jammed;
+        return law_of(at, matched()).yields;
     };
-    CHECK(bears(2.0 * stiffest, 0.2) == Approx(0.2 * d * stiffest));
-    CHECK(bears(0.01 * stiffest, 0.25 + 1e-9) == Approx(0.25 * d * 0.01 * stiffest));
+    CHECK(yields((jammed_overlap + 1e-9) * d, true));
+    CHECK_FALSE(yields((jammed_overlap - 1e-9) * d, true));
+    CHECK_FALSE(yields((jammed_overlap + 1e-9) * d, false));
 }
 
 TEST_CASE("springs of a split step bear at rest what those of the whole step would", "[law][stabilisation][sub_steps]")

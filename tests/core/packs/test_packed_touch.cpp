@@ -123,9 +123,9 @@ struct Touches {
         impacts = kernels.touch.touch_spheres(contact, record, sums, numbers(), step);
     }
 
-    HandedOn hand_on(const Kernels& kernels, double deep)
+    HandedOn hand_on(const Kernels& kernels)
     {
-        return kernels.touch.hand_on(contact, record, deep, step.law, reinterpret_cast<double*>(carried.data()));
+        return kernels.touch.hand_on(contact, record, step.law, reinterpret_cast<double*>(carried.data()));
     }
 };
 
@@ -165,8 +165,7 @@ TEST_CASE("all instruction sets find the same touches and make the same contacts
         CHECK(other.impacts.lanes == same.impacts.lanes);
         CHECK(same_bytes(other.impacts.size, same.impacts.size));
         for (Touches* touches : {&other, &same}) touches->solve(seed);
-        const HandedOn told = other.hand_on(*kernels, 0.02 * radius),
-                       same_told = same.hand_on(plain_kernels, 0.02 * radius);
+        const HandedOn told = other.hand_on(*kernels), same_told = same.hand_on(plain_kernels);
         CHECK(told.cone_violation == same_told.cone_violation);
         CHECK(told.stored_energy == same_told.stored_energy);
         CHECK(told.push_out_energy == same_told.push_out_energy);
@@ -241,14 +240,14 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
         const double carried_along = std::max(0.0, own.impulse.dot(normal));
         const auto root = [](double square) { return std::sqrt(square); };
         const double u_n = normal.dot(velocity);
-        const ContactEvent<double> event{gap, 2 * radius, u_n, u_n,
+        const ContactEvent<double> event{gap, 2 * radius, 0.5 * radius, u_n, u_n,
             closing_time<double>(
                 -across.dot(velocity), velocity.squaredNorm(), across.squaredNorm() - 4 * radius * radius, root),
             w, pair.restitution, pair.stiffness, Touches::had_gap(lane) ? 0.0 : step.parts * carried_along,
             taken_over<double>(own.compression, u_n, step), Touches::was_struck(lane), Touches::is_jammed(lane)};
         const bool impact = is_impact<double>(event, step), open = gap > touching_gap * 2 * radius;
         const double spring = spring_compliance<double>(pair.stiffness, w, step);
-        const bool yields = -gap > elastic_overlap<double>(event, spring, step);
+        const bool yields = -gap > elastic_overlap<double>(event, step);
         CHECK(all.is_struck(lane) == impact);
         CHECK(all.impacts.size[lane] == (impact ? Approx(impact_size<double>(event)) : Approx(0.0).margin(0.0)));
         CHECK(all.record.kind[lane] == (impact      ? ContactKind::impact
@@ -321,10 +320,10 @@ TEST_CASE("contacts hand on their impulses and what their springs keep, impacts 
     all.solve(seed);
     if (seed % 2) // beside an impact a contact hands on no more than its spheres bore
         for (float& most : all.record.hands_on) most = std::min(most, 1e-4F);
-    const double deep = 0.05 * radius;
+    const double deep = jammed_overlap * all.step.law.min_diameter;
     const Touches solved = all;
     const LawOfStep& step = all.step.law;
-    const HandedOn told = all.hand_on(fastest_kernels(), deep);
+    const HandedOn told = all.hand_on(fastest_kernels());
     double worst = 0.0, stored = 0.0, pushed = 0.0;
     for (int lane = 0; lane < pack_size; ++lane) {
         CAPTURE(lane);
