@@ -22,8 +22,8 @@ namespace
 constexpr std::int64_t audit_interval = 16;         ///< steps; gains of contacts are looked for in one of so many
 constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
 constexpr double usual_ratio = 10.0;                ///< of masses in an impact on what bears
-constexpr double most_sweeps = 1e5;
-constexpr std::size_t few_spheres = 1000; ///< that one thread takes faster than several
+constexpr double most_ratio = 300.0;                ///< … up to which an impact is solved further
+constexpr std::size_t few_spheres = 1000;           ///< that one thread takes faster than several
 
 /// Brings the spheres into the order of a space-filling curve now and then, for the sake of the cache.
 void renumber_along_curve(State& state, ContactNetwork& network, const Model& model)
@@ -130,10 +130,10 @@ double fastest_of(const State& state, const std::vector<Flight>& flights, double
 /// most of the impact undone: such a step converges further, and is cheaper in the end than the bounces of many.
 SolverSettings solver_for(const PreparedStep& prepared, SolverSettings solver)
 {
-    const double ratio = prepared.impact_ratio;
+    const double ratio = std::min(prepared.impact_ratio, most_ratio);
     if (ratio <= usual_ratio) return solver;
     solver.tolerance = std::min(solver.tolerance, 0.1 / ratio);
-    solver.max_sweeps = std::max(solver.max_sweeps, static_cast<int>(std::min(3.0 * ratio, most_sweeps)));
+    solver.max_sweeps = std::max(solver.max_sweeps, static_cast<int>(3.0 * ratio));
     return solver;
 }
 
