@@ -47,6 +47,9 @@ inline constexpr double jammed_overlap = 0.01;
 inline constexpr double rigid_yield_overlap = 0.016;
 inline constexpr double rigid_softness = 0.1;
 
+/// What sweeps may leave undone of the load of a rigid contact.
+inline constexpr double undone_share = 0.03;
+
 /// Nearer to the centre of the smaller sphere than this a contact gets stiffer, up to the second; in its diameters.
 inline constexpr double stiffening_rest = 0.25;
 inline constexpr double least_rest = 3e-2;
@@ -201,6 +204,14 @@ template <class N> [[gnu::always_inline]] inline N passive_target(const N& push,
     return smaller<N>(push, 2.0 * larger<N>(N{}, push) - u_n);
 }
 
+/// The target of a rigid contact that touches: what sweeps leave undone of its load may not let it sink, so that much
+/// of a parting speed is taken for none. It adds at most λ_n times the slack to the energy, as if it pushed so.
+template <class N> [[gnu::always_inline]] inline N rigid_target(const ContactEvent<N>& event, const LawOfStep& step)
+{
+    const N undone = undone_share * event.inverse_mass_sum * event.load;
+    return smaller<N>(N{}, 2.0 * smaller<N>(N{} + step.push_out_speed, undone) - event.u_n_before);
+}
+
 /// How fast a spring parts at most, beyond the speed of pushing out: what was pressed faster than impacts begin comes
 /// back with e of the speed that it could have; κ/h is more than any spring has. A contact that does so gives energy
 /// away only where it does not close, so it may always part as fast as it has closed.
@@ -230,7 +241,8 @@ template <class N>
     const N pushing = smaller<N>(none + step.push_out_speed, -event.gap * per_way);
     const N push = open ? -event.gap / step.h : (step.rigid ? none : (yields ? pushing : per_way * kappa));
 
-    const N alone = is_spring ? push : passive_target<N>(push, event.u_n_before);
+    const N passive = passive_target<N>(push, event.u_n_before);
+    const N alone = is_spring ? push : (step.rigid ? (open ? passive : rigid_target<N>(event, step)) : passive);
     // What gives way does so like a spring that all of its overlap has pressed, but parts no faster than it would
     // alone.
     const Answer<N> gives_way = !(impact | (step.rigid ? open : !yields));

@@ -203,7 +203,11 @@ TEST_CASE("a rigid contact stops what comes, and does not hold what leaves", "[l
     const auto law = law_of(event(-1e-5, -0.09, 0.0, 1e-5), rigid());
     CHECK(law.target == 0.0);
     CHECK(law.parting == infinity);
-    CHECK(most_asked(event(-1e-5, 0.5, 0.05), rigid()) == -0.5); // and so takes no energy in
+    CHECK(most_asked(event(-1e-5, 0.5), rigid()) == -0.5); // and so takes no energy in
+    // But for what sweeps leave undone of a load, up to p.
+    CHECK(most_asked(event(-1e-5, 0.5, 0.05), rigid()) == Approx(2 * undone_share * w * 0.05 - 0.5));
+    CHECK(most_asked(event(-1e-5, 0.5, 50.0), rigid()) == Approx(2 * 0.05 - 0.5));
+    CHECK(most_asked(event(-1e-5, 0.01, 0.5), rigid()) == 0.0);
 }
 
 TEST_CASE("a rigid contact is so where it is shallow", "[law][stabilisation][press]")
