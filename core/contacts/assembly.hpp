@@ -10,6 +10,9 @@
 namespace talus
 {
 
+/// What the laws of all contacts of a step share.
+LawOfStep law_of_step(const Model& model, const StepLength& step);
+
 /// Turns the candidates that touch, or will within this step and a half, into the contacts of this step's problem:
 /// normal, law (packs/law.hpp), effective masses, and the impulse carried over, put back into the new tangent plane
 /// and cone. Reads v⁽⁰⁾: gravity has not been added yet. Tiles in parallel, pistons after them.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contacts/carry.hpp"
 
+#include "core/contacts/assembly.hpp"
 #include "core/packs/kernels.hpp"
 
 #include <algorithm>
@@ -11,74 +12,39 @@ namespace talus
 namespace
 {
 
-/// A contact closes under load when it has an impulse that does not keep it from closing by so many smallest diameters
-/// in the step. A rigid one that is deep enough counts as pressed then, a compliant one as crushed (TouchRecord).
-constexpr double pressed_closing = 1e-8;
-
-/// Tells which contacts are loaded or pressed; none is pressed at pistons, which give way, and none where no wall moves
-/// as told: to stand still obeys every contact then.
-struct PressGauge {
-    const std::vector<Motion>& motion;
-    bool rigid;     ///< `projected`
-    double overlap; ///< from which on a contact can be pressed [m]
-    double crushed; ///< the same of a compliant one [m]
-    double closing; ///< [m/s]
-
-    PressGauge(const State& state, const Model& model, double h)
-        : motion(state.motion), rigid(model.solver.stabilisation == Stabilisation::projected),
-          overlap(model.physics.moving_walls ? pressed_overlap * model.min_diameter : infinity),
-          crushed(crushed_overlap * model.min_diameter), closing(pressed_closing * model.min_diameter / h)
-    {
-    }
-
-    /// What this step adds to the record of a contact.
-    TouchRecord noted(const TileContacts& contacts, std::size_t k, bool at_wall) const
-    {
-        const ContactGeometry geometry = contacts.geometry(k);
-        TouchRecord touch = geometry.touch;
-        const bool loaded = geometry.kind != ContactKind::impact && normal_impulse(contacts, k) > 0.0;
-        if (-geometry.gap <= overlap)
-            touch.note_load(loaded);
-        else if (rigid)
-            closes_under_load(contacts, k, at_wall) ? touch.note_pressed() : touch.note_unpressed();
-        else
-            touch.is_jammed() || is_crushed(contacts, k, at_wall) ? touch.note_crushed() : touch.note_load(loaded);
-        return touch;
-    }
-
-private:
-    static double normal_impulse(const TileContacts& contacts, std::size_t k)
-    {
-        return contacts.impulse(k).dot(contacts.normal(k));
-    }
-
-    bool is_crushed(const TileContacts& contacts, std::size_t k, bool at_wall) const
-    {
-        return -contacts.geometry(k).gap > crushed && closes_under_load(contacts, k, at_wall);
-    }
-
-    bool closes_under_load(const TileContacts& contacts, std::size_t k, bool at_wall) const
-    {
-        Vec3 u = motion[contacts.a(k)].velocity;
-        if (!at_wall) u -= motion[contacts.b(k)].velocity;
-        if (contacts.has_moving_walls()) u -= contacts.wall(k).velocity;
-        return normal_impulse(contacts, k) > 0.0 && u.dot(contacts.normal(k)) < -closing;
-    }
-};
+/// What this step adds to the record of a contact.
+TouchRecord noted(const TileContacts& contacts, std::size_t k, const LawOfStep& law)
+{
+    const ContactGeometry geometry = contacts.geometry(k);
+    const double along = contacts.impulse(k).dot(contacts.normal(k));
+    const ContactTerms terms = contacts.terms(k);
+    const double overlap = -geometry.gap / law.min_diameter;
+    TouchRecord touch = geometry.touch;
+    if (along > 0.0 && geometry.kind == ContactKind::impact)
+        touch.note_impact();
+    else if (geometry.kind == ContactKind::yielding || (touch.is_jammed() && overlap > jammed_overlap))
+        touch.note_yield(along > 0.0 && overlap > jamming_overlap &&
+                         contacts.contact(k).target - terms.compliance * along < terms.parting);
+    else if (along > 0.0 && geometry.kind == ContactKind::open)
+        touch.note_closing();
+    else
+        touch.note_load(along > 0.0);
+    return touch;
+}
 
 /// What the contacts between the spheres of a tile hand on.
-ContactOutcome carry_between_spheres(TileContacts& contacts, CarriedImpulses& carried, const PressGauge& gauge)
+ContactOutcome carry_between_spheres(TileContacts& contacts, CarriedImpulses& carried, const LawOfStep& law)
 {
     ContactOutcome outcome;
     auto* const records = reinterpret_cast<double*>(carried.contact.data());
     for (std::size_t p = 0; p < contacts.packs(); ++p) {
-        unsigned deep = 0;
-        const double excess =
-            fastest_kernels().touch.hand_on(contacts.pack(p), contacts.record(p), gauge.overlap, deep, records);
-        outcome.cone_violation = std::max(outcome.cone_violation, excess);
-        for (; deep != 0; deep &= deep - 1) {
-            const std::size_t k = pack_size * p + static_cast<std::size_t>(std::countr_zero(deep));
-            const TouchRecord touch = gauge.noted(contacts, k, false);
+        HandedOn handed = fastest_kernels().touch.hand_on(contacts.pack(p), contacts.record(p), law, records);
+        outcome.cone_violation = std::max(outcome.cone_violation, handed.cone_violation);
+        outcome.stored_energy += handed.stored_energy;
+        outcome.push_out_energy += handed.push_out_energy;
+        for (unsigned lanes = handed.deep_lanes; lanes != 0; lanes &= lanes - 1) {
+            const std::size_t k = pack_size * p + static_cast<std::size_t>(std::countr_zero(lanes));
+            const TouchRecord touch = noted(contacts, k, law);
             contacts.set_touch(k, touch);
             carried.contact[contacts.geometry(k).slot].touch = touch;
             if (touch.is_newly_jammed()) ++outcome.newly_jammed;
@@ -88,30 +54,38 @@ ContactOutcome carry_between_spheres(TileContacts& contacts, CarriedImpulses& ca
         for (std::size_t k = 0; k < pack_size * contacts.packs(); ++k)
             if (contacts.a(k) >= 0)
                 carried.rolling_impulse[contacts.geometry(k).slot] =
-                    contacts.kind(k) == ContactKind::impact ? Vec3::Zero().eval() : contacts.rolling_impulse(k);
+                    contacts.geometry(k).hands_on == 0.0F ? Vec3::Zero().eval() : contacts.rolling_impulse(k);
     return outcome;
 }
 
 /// The same of those with walls, one by one.
-ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, const PressGauge& gauge)
+ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, const LawOfStep& law)
 {
     ContactOutcome outcome;
     for (const std::size_t k : contacts.indices()) {
         const Vec3 impulse = contacts.impulse(k), normal = contacts.normal(k);
-        const double normal_impulse = impulse.dot(normal);
-        const double tangent_impulse = (impulse - normal_impulse * normal).norm();
-        outcome.cone_violation =
-            std::max(outcome.cone_violation, tangent_impulse - contacts.friction(k) * normal_impulse);
-        const TouchRecord touch = gauge.noted(contacts, k, true);
+        const ContactTerms terms = contacts.terms(k);
+        const double along = impulse.dot(normal), tangent_impulse = (impulse - along * normal).norm();
+        outcome.cone_violation = std::max(outcome.cone_violation, tangent_impulse - terms.friction * along);
+        const TouchRecord touch = noted(contacts, k, law);
         contacts.set_touch(k, touch);
         if (touch.is_newly_jammed()) ++outcome.newly_jammed;
+
         const ContactGeometry own = contacts.geometry(k);
-        const bool keeps = own.kind != ContactKind::impact;
-        carried.contact[own.slot].impulse = keeps ? impulse : Vec3::Zero().eval();
-        carried.contact[own.slot].compression = own.compression;
+        const double u_n = std::min(contacts.contact(k).target - terms.compliance * along, terms.parting);
+        const double kappa = compression_after<double>(own.compression, own.gap, u_n, along, own.restitution, law);
+        const bool keeps_spring = kappa > touching_gap * law.min_diameter;
+        if (own.kind == ContactKind::resting || own.kind == ContactKind::yielding)
+            outcome.push_out_energy +=
+                push_out_energy<double>(own.compression, own.gap, contacts.contact(k).target, along, law);
+        if (keeps_spring)
+            outcome.stored_energy += spring_energy<double>(kappa, u_n, own.spring, terms.inverse_mass_sum, law);
+        carried.contact[own.slot].impulse = (along > own.hands_on ? own.hands_on / along : 1.0) * impulse;
+        carried.contact[own.slot].compression = static_cast<float>(handed_on<double>(kappa, u_n, law));
         carried.contact[own.slot].touch = touch;
         if (contacts.has_rolling())
-            carried.rolling_impulse[own.slot] = keeps ? contacts.rolling_impulse(k) : Vec3::Zero().eval();
+            carried.rolling_impulse[own.slot] =
+                own.hands_on == 0.0F ? Vec3::Zero().eval() : contacts.rolling_impulse(k);
     }
     return outcome;
 }
@@ -145,14 +119,17 @@ ContactOutcome& ContactOutcome::operator+=(const ContactOutcome& other)
     from_walls += other.from_walls;
     from_pistons += other.from_pistons;
     wall_work += other.wall_work;
+    wall_gain_work += other.wall_gain_work;
+    push_out_energy += other.push_out_energy;
+    stored_energy += other.stored_energy;
     newly_jammed += other.newly_jammed;
     return *this;
 }
 
-ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model, double h)
+ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model& model, const StepLength& length)
 {
-    network.carried.step_before = h;
-    const PressGauge gauge(state, model, h);
+    const double h = length.h();
+    const LawOfStep law = law_of_step(model, length);
     StepContacts& contacts = network.contacts;
     const auto tiles = static_cast<std::int64_t>(contacts.spheres.size());
     std::vector<ContactOutcome> outcomes(contacts.spheres.size());
@@ -161,11 +138,14 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
         const auto tile = static_cast<std::size_t>(t);
         auto& outcome = outcomes[tile];
         TileContacts& walls = contacts.walls[tile];
-        outcome = carry_between_spheres(contacts.spheres[tile], network.list.tiles.tiles[tile].carried, gauge);
-        outcome += carry_at_walls(walls, network.carried.walls, gauge);
+        outcome = carry_between_spheres(contacts.spheres[tile], network.list.tiles.tiles[tile].carried, law);
+        outcome += carry_at_walls(walls, network.carried.walls, law);
         if (walls.has_moving_walls())
             for (const std::size_t k : walls.indices()) {
-                outcome.wall_work += walls.impulse(k).dot(walls.wall(k).velocity);
+                const WallRow wall = walls.wall(k);
+                const Vec3 impulse = walls.impulse(k);
+                outcome.wall_work += impulse.dot(wall.velocity);
+                outcome.wall_gain_work -= 0.5 * wall.gain * impulse.dot(walls.normal(k));
                 if (walls.has_rolling()) outcome.wall_work += walls.rolling_impulse(k).dot(walls.wall(k).spin);
             }
         outcome.from_walls = load_from(walls, state, h);
@@ -173,9 +153,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
     }
     ContactOutcome all;
     for (const auto& outcome : outcomes) all += outcome;
-    PressGauge none = gauge; // a piston gives way
-    none.overlap = infinity;
-    all += carry_at_walls(contacts.pistons, network.carried.walls, none);
+    all += carry_at_walls(contacts.pistons, network.carried.walls, law);
     all.from_pistons = load_from(contacts.pistons, state, h);
     note_walls_touched(contacts.pistons, state);
     return all;

@@ -5,6 +5,7 @@
 #include "core/candidates/carried.hpp"
 #include "core/packs/contact_pack.hpp"
 
+#include <cmath>
 #include <cstdint>
 
 namespace talus
@@ -22,10 +23,11 @@ struct Contact {
 
 /// The constants of a contact's local solve.
 struct ContactTerms {
-    double arm_scale = 1.0;   ///< s = |x_a − x_b| / (r_a + r_b); 1 at walls: lever arms add up to the centre distance
-    double friction = 0.0;    ///< μ
-    double compliance = 0.0;  ///< Σ_n [1/kg]
-    double normal_mass = 0.0; ///< 1 / (W + Σ_n) [kg], W the inverse mass sum
+    double arm_scale = 1.0;  ///< s = |x_a − x_b| / (r_a + r_b); 1 at walls: lever arms add up to the centre distance
+    double friction = 0.0;   ///< μ
+    double compliance = 0.0; ///< Σ_n [1/kg]
+    double parting = infinity;     ///< u_n that it asks for at most [m/s]
+    double normal_mass = 0.0;      ///< 1 / (W + Σ_n) [kg], W the inverse mass sum
     double tangent_mass = 0.0;     ///< 1 / (W (1 + 5/2 s²)) [kg]; without rotation 1/W
     double inverse_mass_sum = 0.0; ///< W = 1/m_a + 1/m_b [1/kg]
 };
@@ -41,6 +43,7 @@ struct RollingRow {
 struct WallRow {
     Vec3 velocity = Vec3::Zero(); ///< of its material at x − r n [m/s]
     Vec3 spin = Vec3::Zero();     ///< [rad/s]
+    double gain = 0.0;            ///< by how much its velocity along n has grown since the step before [m/s]
 };
 
 /// What one step knows of a contact besides its solve.
@@ -49,9 +52,11 @@ struct ContactGeometry {
     double wall_level = 0.0; ///< n·x at which the gap to the wall is zero after the step [m]; unused between spheres
     std::uint32_t slot = 0;  ///< where its impulse is carried
     ContactKind kind = ContactKind::open;
-    bool waits = false;       ///< it is left out of the problem where one of its spheres has an impact
-    TouchRecord touch = {};   ///< what is known from the steps before; after carry_impulses with this one
-    float compression = 0.0F; ///< κ: what of the overlap a load has pressed [m]
+    TouchRecord touch = {};    ///< what is known from the steps before; after carry_impulses with this one
+    float compression = 0.0F;  ///< κ: what of the overlap a load has pressed [m]; −∞: it will keep none
+    float spring = 0.0F;       ///< Σ_n of its spring, also where it is rigid in this step [1/kg]
+    float restitution = 0.0F;  ///< e
+    float hands_on = INFINITY; ///< normal impulse at most [N s]
 };
 
 } // namespace talus

@@ -15,8 +15,7 @@ void StepContacts::resize(const CandidateList& list, const ModelledPhysics& phys
     pistons.clear(physics.rolling, false);
     piston_arms.clear();
     reach_balls.resize(sphere_count);
-    struck.assign(sphere_count, 0);
-    loaded.assign(sphere_count, 0);
+    impacts.assign(sphere_count, {});
     rooms.resize(static_cast<std::size_t>(omp_get_max_threads()));
 }
 

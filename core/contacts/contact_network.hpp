@@ -20,11 +20,28 @@ struct AssemblyRoom {
     std::vector<std::uint32_t> near; ///< candidates of a tile
 };
 
-/// Marks a sphere. Tiles that share it may do so at once.
-inline void mark(std::vector<std::uint8_t>& spheres, std::int32_t sphere)
-{
-    std::atomic_ref(spheres[static_cast<std::size_t>(sphere)]).store(1, std::memory_order_relaxed);
-}
+/// What a sphere has that has an impact in this step. Tiles that share it may note it at once.
+struct SphereImpacts {
+    double size = 0.0; ///< impulse of its largest impact, had it that alone [N s]; 0: it has none
+    double mass = 0.0; ///< heaviest that it meets so [kg]
+    double load = 0.0; ///< largest normal impulse that its contacts brought from the step before [N s]
+
+    void note(double impulse, double other_mass)
+    {
+        raise(size, impulse);
+        raise(mass, other_mass);
+    }
+
+    void note_load(double impulse) { raise(load, impulse); }
+
+private:
+    static void raise(double& number, double to)
+    {
+        std::atomic_ref shared(number);
+        double now = shared.load(std::memory_order_relaxed);
+        while (now < to && !shared.compare_exchange_weak(now, to, std::memory_order_relaxed)) {}
+    }
+};
 
 /// The contacts of one step; scratch, made anew in every step.
 struct StepContacts {
@@ -34,8 +51,7 @@ struct StepContacts {
     std::vector<Vec3> piston_arms;      ///< by contact: from the centre of the piston to where it is [m]
     std::vector<AssemblyRoom> rooms;    ///< by thread
     std::vector<ReachBall> reach_balls; ///< by sphere
-    std::vector<std::uint8_t> struck;   ///< by sphere: 1 where it has an impact
-    std::vector<std::uint8_t> loaded;   ///< by sphere: 1 where another has pressed it in the step before
+    std::vector<SphereImpacts> impacts; ///< by sphere
 
     /// That of the thread that asks.
     AssemblyRoom& room();

@@ -8,12 +8,13 @@ namespace talus
 
 /// What assembly learns of the contacts on its way.
 struct ContactSurvey {
-    std::size_t count = 0;       ///< contacts in the problem, walls included
-    std::size_t overlapping = 0; ///< pairs with g < 0, in the problem or not
-    std::size_t impacts = 0;     ///< between spheres or at walls, in the problem
-    double worst_overlap = 0.0;  ///< at the beginning of the step [m]
-    double overlap_sum = 0.0;    ///< over the overlapping contacts [m]
-    double stored_energy = 0.0;  ///< ½ k κ² in the compliant contacts at the beginning of the step [J]
+    std::size_t count = 0;        ///< contacts in the problem, walls included
+    std::size_t overlapping = 0;  ///< pairs with g < 0, in the problem or not
+    std::size_t impacts = 0;      ///< between spheres or at walls, in the problem
+    double worst_overlap = 0.0;   ///< at the beginning of the step [m]
+    double overlap_sum = 0.0;     ///< over the overlapping contacts [m]
+    double stored_energy = 0.0;   ///< in the contacts' springs at the beginning of the step [J] …
+    double push_out_energy = 0.0; ///< … of which pushing out has put in so much in this step [J]
 
     double mean_overlap() const { return overlapping ? overlap_sum / static_cast<double>(overlapping) : 0.0; } ///< [m]
     /// The contacts of another tile of the same step.

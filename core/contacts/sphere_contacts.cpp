@@ -22,12 +22,14 @@ ReachBall reach_ball(const State& state, std::size_t i, const StepConstants& ste
     return {{x.x(), x.y(), x.z()}, m.radius + std::max(0.5 * step.reach, step.horizon * m.velocity.norm())};
 }
 
-void mark_spheres(const ContactPack& pack, unsigned lanes, std::vector<std::uint8_t>& spheres)
+void note_impacts(const ContactPack& pack, PackImpacts impacts, const std::vector<Motion>& motion,
+    std::vector<SphereImpacts>& spheres)
 {
-    for (; lanes != 0; lanes &= lanes - 1) {
-        const int lane = std::countr_zero(lanes);
-        mark(spheres, pack.a[lane]);
-        mark(spheres, pack.b[lane]);
+    for (; impacts.lanes != 0; impacts.lanes &= impacts.lanes - 1) {
+        const int lane = std::countr_zero(impacts.lanes);
+        const std::int32_t a = pack.a[lane], b = pack.b[lane];
+        spheres[a].note(impacts.size[lane], 1.0 / motion[b].inverse_mass);
+        spheres[b].note(impacts.size[lane], 1.0 / motion[a].inverse_mass);
     }
 }
 
@@ -77,19 +79,18 @@ ContactSurvey SphereAssembly::make(const Tile& tile, const SphereNumbers& sphere
     for (std::size_t p = 0; p < contacts.packs(); ++p) {
         ContactPack& pack = contacts.pack(p);
         RecordPack& record = contacts.record(p);
-        const TouchMarks marks = kernel_.touch_spheres(pack, record, sums, spheres, step_);
+        const PackImpacts impacts = kernel_.touch_spheres(pack, record, sums, spheres, step_);
         if (contacts.has_rolling()) make_rolling(tile, contacts, p);
         survey.count += static_cast<std::size_t>(std::popcount(record.in_problem));
-        survey.impacts += static_cast<std::size_t>(std::popcount(marks.impact));
-        if (!step_.restitution) continue; // nothing is struck
-        mark_spheres(pack, marks.impact, network_.contacts.struck);
-        mark_spheres(pack, marks.carries, network_.contacts.loaded);
+        survey.impacts += static_cast<std::size_t>(std::popcount(impacts.lanes));
+        note_impacts(pack, impacts, state_.motion, network_.contacts.impacts);
     }
     for (int lane = 0; lane < pack_size; ++lane) {
         survey.overlapping += static_cast<std::size_t>(sums.overlapping[lane]);
         survey.overlap_sum += sums.overlap[lane];
         survey.worst_overlap = std::max(survey.worst_overlap, sums.worst_overlap[lane]);
         survey.stored_energy += sums.stored_energy[lane];
+        survey.push_out_energy += sums.push_out_energy[lane];
     }
     return survey;
 }

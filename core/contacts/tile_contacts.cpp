@@ -40,7 +40,7 @@ void TileContacts::append_pack()
         if (with_moving_walls_) wall_[p] = {};
     }
     for (int lane = 0; lane < pack_size; ++lane) packs_[p].a[lane] = packs_[p].b[lane] = -1;
-    records_[p].in_problem = records_[p].waits = 0;
+    records_[p].in_problem = 0;
 }
 
 std::size_t TileContacts::append()
@@ -60,10 +60,12 @@ void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms
     record.gap[lane] = own.gap;
     record.wall_level[lane] = own.wall_level;
     record.compression[lane] = own.compression;
+    record.spring[lane] = own.spring;
+    record.restitution[lane] = own.restitution;
+    record.hands_on[lane] = own.hands_on;
     record.slot[lane] = own.slot;
     record.kind[lane] = own.kind;
     set_touch(k, own.touch);
-    record.waits = static_cast<std::uint8_t>(own.waits ? record.waits | bit : record.waits & ~bit);
     record.in_problem |= bit;
 }
 
@@ -79,6 +81,7 @@ void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms
     pack.arm_scale[lane] = terms.arm_scale;
     pack.friction[lane] = terms.friction;
     pack.compliance[lane] = terms.compliance;
+    pack.parting[lane] = terms.parting;
     pack.normal_mass[lane] = terms.normal_mass;
     pack.tangent_mass[lane] = terms.tangent_mass;
     pack.inverse_mass_sum[lane] = terms.inverse_mass_sum;
@@ -96,18 +99,23 @@ void TileContacts::copy(std::size_t k, const ContactPack& from, std::size_t lane
     const Contact contact{
         from.a[lane], from.b[lane], get(from.normal, lane), from.target[lane], get(from.impulse, lane)};
     set(k, contact,
-        {from.arm_scale[lane], from.friction[lane], from.compliance[lane], from.normal_mass[lane],
+        {from.arm_scale[lane], from.friction[lane], from.compliance[lane], from.parting[lane], from.normal_mass[lane],
             from.tangent_mass[lane], from.inverse_mass_sum[lane]},
         own);
 }
 
-void TileContacts::take_out(std::size_t k)
+void TileContacts::set_law(std::size_t k, ContactKind kind, double target, float compression, double hands_on)
 {
-    const Contact c = contact(k);
-    set(k, {.a = c.a, .b = c.b, .normal = c.normal}, {.friction = friction(k)});
-    if (with_rolling_) set_rolling(k, {});
-    record_at(k).in_problem &= static_cast<std::uint8_t>(~(1U << k % pack_size));
-    record_at(k).kind[k % pack_size] = ContactKind::resting;
+    ContactPack& pack = packs_[k / pack_size];
+    RecordPack& record = record_at(k);
+    const std::size_t lane = k % pack_size;
+    pack.target[lane] = target;
+    pack.compliance[lane] = 0.0;
+    pack.parting[lane] = infinity;
+    pack.normal_mass[lane] = 1.0 / pack.inverse_mass_sum[lane];
+    record.kind[lane] = kind;
+    record.compression[lane] = compression;
+    record.hands_on[lane] = static_cast<float>(hands_on);
 }
 
 void TileContacts::set_rolling(std::size_t k, const RollingRow& row)
@@ -122,6 +130,7 @@ void TileContacts::set_wall(std::size_t k, const WallRow& row)
 {
     put(wall_[k / pack_size].velocity, k % pack_size, row.velocity);
     put(wall_[k / pack_size].spin, k % pack_size, row.spin);
+    wall_[k / pack_size].gain[k % pack_size] = row.gain;
 }
 
 PackSpan TileContacts::span()
@@ -140,16 +149,17 @@ ContactTerms TileContacts::terms(std::size_t k) const
 {
     const ContactPack& pack = packs_[k / pack_size];
     const std::size_t lane = k % pack_size;
-    return {pack.arm_scale[lane], pack.friction[lane], pack.compliance[lane], pack.normal_mass[lane],
-        pack.tangent_mass[lane], pack.inverse_mass_sum[lane]};
+    return {pack.arm_scale[lane], pack.friction[lane], pack.compliance[lane], pack.parting[lane],
+        pack.normal_mass[lane], pack.tangent_mass[lane], pack.inverse_mass_sum[lane]};
 }
 
 ContactGeometry TileContacts::geometry(std::size_t k) const
 {
     const RecordPack& record = records_[k / pack_size];
     const std::size_t lane = k % pack_size;
-    return {record.gap[lane], record.wall_level[lane], record.slot[lane], record.kind[lane], waits(k),
-        std::bit_cast<TouchRecord>(record.touch[lane]), record.compression[lane]};
+    return {record.gap[lane], record.wall_level[lane], record.slot[lane], record.kind[lane],
+        std::bit_cast<TouchRecord>(record.touch[lane]), record.compression[lane], record.spring[lane],
+        record.restitution[lane], record.hands_on[lane]};
 }
 
 RollingRow TileContacts::rolling(std::size_t k) const
@@ -160,7 +170,8 @@ RollingRow TileContacts::rolling(std::size_t k) const
 
 WallRow TileContacts::wall(std::size_t k) const
 {
-    return {get(wall_[k / pack_size].velocity, k % pack_size), get(wall_[k / pack_size].spin, k % pack_size)};
+    return {get(wall_[k / pack_size].velocity, k % pack_size), get(wall_[k / pack_size].spin, k % pack_size),
+        wall_[k / pack_size].gain[k % pack_size]};
 }
 
 } // namespace talus

@@ -86,8 +86,8 @@ public:
     void set(std::size_t k, const Contact& contact, const ContactTerms& terms);
     /// Contact k becomes what stands in a lane of another pack.
     void copy(std::size_t k, const ContactPack& from, std::size_t lane, const ContactGeometry& own);
-    /// Takes contact k out of the problem of this step.
-    void take_out(std::size_t k);
+    /// Contact k gets another normal law, and hands on no more than this normal impulse [N s].
+    void set_law(std::size_t k, ContactKind kind, double target, float compression, double hands_on);
     void set_rolling(std::size_t k, const RollingRow& row);
     void set_wall(std::size_t k, const WallRow& row);
     void set_touch(std::size_t k, TouchRecord touch)
@@ -125,7 +125,6 @@ public:
     ContactTerms terms(std::size_t k) const;
     ContactGeometry geometry(std::size_t k) const;
     ContactKind kind(std::size_t k) const { return records_[k / pack_size].kind[k % pack_size]; }
-    bool waits(std::size_t k) const { return (records_[k / pack_size].waits >> k % pack_size & 1U) != 0; }
     RollingRow rolling(std::size_t k) const;
     WallRow wall(std::size_t k) const;
     Vec3 rolling_impulse(std::size_t k) const { return get(rolling_[k / pack_size].impulse, k % pack_size); }

@@ -17,7 +17,7 @@ namespace talus
 struct WallTouch {
     std::int32_t sphere, wall;
     Vec3 normal;
-    double gap, u_n, u_n_ahead, closes, u_n_before, u_n_turned;
+    double gap, u_n, u_n_before, closes;
     double inverse_mass_sum; ///< W
     std::uint32_t slot;
     double wall_level; ///< of ContactGeometry
@@ -30,7 +30,7 @@ class WallAssembly
 public:
     WallAssembly(TileContacts& contacts, bool with_pistons, CarriedImpulses& carried, StepContacts& scratch,
         const State& state, const Model& model, const StepConstants& step)
-        : contacts_(contacts), one_by_one_(with_pistons), carried_(carried), struck_(scratch.struck),
+        : contacts_(contacts), one_by_one_(with_pistons), carried_(carried), impacts_(scratch.impacts),
           filler_(scratch.room().filler), contact_(scratch.room().contact), touch_(scratch.room().touch), state_(state),
           model_(model), step_(step)
     {
@@ -52,14 +52,15 @@ public:
         const CarriedContact& carried = carried_.contact[at.slot];
         for (int d = 0; d < 3; ++d) touch_.carried[d][lane] = carried.impulse[d];
         touch_.compression[lane] = carried.compression;
-        touch_.loaded[lane] = -static_cast<std::int64_t>(carried.touch.is_loaded());
+        touch_.struck[lane] = -static_cast<std::int64_t>(carried.touch.was_impact());
+        touch_.pushed[lane] = -static_cast<std::int64_t>(carried.touch.was_open());
         touch_.jammed[lane] = -static_cast<std::int64_t>(carried.touch.is_jammed());
         touch_.gap[lane] = at.gap;
+        touch_.diameter[lane] = 2.0 * state_.radius(at.sphere);
+        touch_.reduced_radius[lane] = state_.radius(at.sphere);
         touch_.u_n[lane] = at.u_n;
-        touch_.u_n_ahead[lane] = at.u_n_ahead;
-        touch_.closes[lane] = at.closes;
         touch_.u_n_before[lane] = at.u_n_before;
-        touch_.u_n_turned[lane] = at.u_n_turned;
+        touch_.closes[lane] = at.closes;
         slot_[lane] = at.slot;
         wall_level_[lane] = at.wall_level;
         row_[lane] = at.row;
@@ -78,7 +79,7 @@ private:
     TileContacts& contacts_;
     const bool one_by_one_;
     CarriedImpulses& carried_;
-    std::vector<std::uint8_t>& struck_;
+    std::vector<SphereImpacts>& impacts_;
     PackFiller& filler_;
     ContactPack& contact_; ///< of the next eight …
     TouchPack& touch_;     ///< … with what was found of them
@@ -99,23 +100,25 @@ private:
         count_ = 0;
     }
 
-    /// Into the problem, unless it is left out.
     void take(int lane)
     {
         const std::uint32_t slot = slot_[lane];
         const double gap = touch_.gap[lane];
         note_overlap(gap);
-        const bool waits = touch_.waits[lane];
-        if (!touch_.in_problem[lane] || (waits && one_by_one_)) return;
-
         const std::int32_t sphere = contact_.a[lane];
         const std::size_t k = one_by_one_ ? contacts_.append() : filler_.place(sphere, -1);
-        const auto kind = touch_.impact[lane] ? ContactKind::impact
-                          : touch_.open[lane] ? ContactKind::open
-                                              : ContactKind::resting;
+        const auto kind = static_cast<ContactKind>(touch_.kind[lane]);
+        const bool is_impact = kind == ContactKind::impact;
         contacts_.copy(k, contact_, static_cast<std::size_t>(lane),
-            {gap, wall_level_[lane], slot, kind, waits, carried_.contact[slot].touch,
-                static_cast<float>(touch_.compression[lane])});
+            {.gap = gap,
+                .wall_level = wall_level_[lane],
+                .slot = slot,
+                .kind = kind,
+                .touch = carried_.contact[slot].touch,
+                .compression = static_cast<float>(touch_.compression[lane]),
+                .spring = static_cast<float>(touch_.spring[lane]),
+                .restitution = static_cast<float>(touch_.restitution[lane]),
+                .hands_on = is_impact ? 0.0F : INFINITY});
         if (contacts_.has_moving_walls()) contacts_.set_wall(k, row_[lane]);
         if (contacts_.has_rolling()) {
             const Motion& m = state_.motion[sphere];
@@ -124,10 +127,12 @@ private:
             contacts_.set_rolling(
                 k, rolling_row(contacts_, k, law, m.radius, inverse_inertia(m), carried_.rolling_impulse[slot]));
         }
-        if (kind == ContactKind::impact) mark(struck_, sphere);
+        if (is_impact)
+            impacts_[sphere].note(touch_.impact_size[lane], 0.0); // nothing is heavier than what stands still
         ++survey_.count;
-        survey_.impacts += kind == ContactKind::impact;
+        survey_.impacts += is_impact;
         survey_.stored_energy += touch_.stored_energy[lane];
+        survey_.push_out_energy += touch_.push_out_energy[lane];
     }
 
     void note_overlap(double gap)

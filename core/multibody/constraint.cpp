@@ -2,6 +2,7 @@
 #include "core/multibody/constraint.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace talus::multibody
 {
@@ -16,11 +17,19 @@ void project_on_disk(Eigen::Ref<Eigen::VectorXd> part, double radius)
 
 } // namespace
 
+void limit_parting(const Constraint& constraint, double normal_impulse, double diagonal, Eigen::Ref<Eigen::VectorXd> y)
+{
+    const double rigid = diagonal - constraint.compliance;
+    if (constraint.law != Law::contact || !std::isfinite(constraint.headroom) || rigid <= 0.0) return;
+    const double excess = y[0] - constraint.compliance * normal_impulse - constraint.headroom;
+    y[0] = std::max(y[0], excess * diagonal / rigid);
+}
+
 void project(const Constraint& constraint, Eigen::Ref<Eigen::VectorXd> impulse)
 {
     if (constraint.law == Law::unilateral) impulse = impulse.cwiseMax(0.0);
     if (constraint.law != Law::contact) return;
-    impulse[0] = std::max(0.0, impulse[0]);
+    impulse[0] = std::max(impulse[0], 0.0);
     project_on_disk(impulse.segment<tangent_rows>(1), constraint.friction * impulse[0]);
     if (constraint.rolls())
         project_on_disk(impulse.segment<rolling_rows>(1 + tangent_rows), constraint.rolling_reach * impulse[0]);

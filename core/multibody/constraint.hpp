@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include <limits>
+
 namespace talus::multibody
 {
 
@@ -22,11 +24,17 @@ struct Constraint {
     Law law = Law::equality;
     Eigen::Index first_row = 0;
     Eigen::Index rows = 0;
-    double friction = 0.0;      ///< μ of a contact
+    double friction = 0.0;                                     ///< μ of a contact
+    double headroom = std::numeric_limits<double>::infinity(); ///< a contact asks for G v = q_n + this at most [m/s] …
+    double compliance = 0.0;    ///< … or for q_n − Σ_n λ_n, with this Σ_n, if that is less [1/kg]
     double rolling_reach = 0.0; ///< μ_r R* [m] of a contact with rolling rows: |λ_r| ≤ μ_r R* λ_n
 
     bool rolls() const { return law == Law::contact && rows == 1 + tangent_rows + rolling_rows; }
 };
+
+/// y_n of a contact is G v − min(q_n − Σ_n λ_n, q_n + headroom): what its rows' y becomes by that, where the second is
+/// less as much of it as changes λ_n as it should. @param diagonal D_nn, Σ_n included
+void limit_parting(const Constraint& constraint, double normal_impulse, double diagonal, Eigen::Ref<Eigen::VectorXd> y);
 
 /// The nearest impulse, part by part, that the law allows: normal and unilateral rows not below zero, then tangential
 /// and rolling rows radially onto the disks that the normal one allows; eq. (19) with μ² z₁² where the note has μ z₁².

@@ -25,6 +25,7 @@ void for_each_correction(const AnyIterate& iterate, const DiagonalBlocks& blocks
         const auto scale = blocks.scale().segment(constraint.first_row, constraint.rows);
         y.resize(constraint.rows);
         iterate.residual_of(k, y);
+        limit_parting(constraint, impulse[0], scale[0], y);
         z = impulse - (scale.array() > 0.0).select(y.cwiseQuotient(scale), 0.0); // scale zero: nothing can move
         project(constraint, z);
         visit(constraint, impulse - z);

@@ -128,6 +128,7 @@ void solve_in_sequence(const LocalProblem& local, LocalVector y, LocalVector z)
 
 void solve_locally(LocalSolve how, const LocalProblem& local, LocalVector y, LocalVector z)
 {
+    limit_parting(local.constraint, z[0], local.D(0, 0), y);
     switch (how) {
     case LocalSolve::block:
         return solve_by_block(local, y, z);

@@ -33,6 +33,14 @@ struct SweepKernel {
     Pass warm_start = nullptr; ///< v ← v + M⁻¹ Gᵀ λ; the sum of sizes is that of these λ
 };
 
+/// What the contacts of a pack leave.
+struct HandedOn {
+    double cone_violation = 0.0;  ///< worst |λ_t| − μ λ_n [N s], at least 0
+    double stored_energy = 0.0;   ///< in springs [J]
+    double push_out_energy = 0.0; ///< of contacts without one [J]
+    unsigned deep_lanes = 0;      ///< as bits
+};
+
 /// What makes contacts of touches.
 struct TouchKernel {
     /// Lists the candidates whose balls meet or that were loaded. Returns how many.
@@ -41,15 +49,14 @@ struct TouchKernel {
         const StepConstants& step, std::uint32_t* near) = nullptr;
     /// Finds how the spheres a and b of a pack lie to each other, and makes their contacts with what their slots carry.
     /// A lane whose spheres do not touch is left out of the problem, and has nothing to hand on.
-    TouchMarks (*touch_spheres)(ContactPack& contact, RecordPack& record, TouchSums& sums, const SphereNumbers& spheres,
-        const StepConstants& step) = nullptr;
+    PackImpacts (*touch_spheres)(ContactPack& contact, RecordPack& record, TouchSums& sums,
+        const SphereNumbers& spheres, const StepConstants& step) = nullptr;
     /// Makes contacts of touches that have been found.
     void (*make_contacts)(ContactPack& contact, TouchPack& touch, const StepConstants& step) = nullptr;
     /// Stores what the contacts of a pack between spheres hand on. Touch records of those that overlap by more than
-    /// `deep` [m] stay as they are, and their lanes are told. Returns the worst |λ_t| − μ λ_n [N s], at least 0.
-    /// @param carried as in SphereNumbers
-    double (*hand_on)(
-        const ContactPack& contact, RecordPack& record, double deep, unsigned& deep_lanes, double* carried) = nullptr;
+    /// jammed_overlap stay as they are, and their lanes are reported. @param carried as in SphereNumbers
+    HandedOn (*hand_on)(
+        const ContactPack& contact, RecordPack& record, const LawOfStep& law, double* carried) = nullptr;
 };
 
 /// The kernels for one instruction set, the sweep's by Rows::index.

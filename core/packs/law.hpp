@@ -19,38 +19,83 @@ inline constexpr double sigma_per_sweep = 0.2;
 /// Share of an overlap that one position pass of `projected` removes: that of the note's step, 4Υ.
 inline constexpr double projected_share = 4.0 * upsilon;
 
+/// Spheres touch up to this gap, and a spring exists from this compression on, in smallest diameters: no decision
+/// hangs on rounding.
+inline constexpr double touching_gap = 1e-9;
+
+/// A load below this share of an impact's impulse is none.
+inline constexpr double load_share = 1e-4;
+
+/// A spring gives way no faster than with this restitution: with a smaller one, it parts slowly.
+inline constexpr double least_restitution = 0.25;
+
+/// An impact below this share of a contact's load is light: the contact stays a spring beside it.
+inline constexpr double light_share = 0.1;
+
+/// A contact that overlaps more than this yields, in reduced radii R*: it keeps nothing of what it bears. One that
+/// closes faster than impacts begin does so at the second. What strains a contact is the root of overlap over R*
+/// (Hertz).
+inline constexpr double yield_overlap = 0.25;
+inline constexpr double fast_yield_overlap = 0.1;
+/// What yields and cannot part, deeper than this, has jammed: it yields until it is shallower than the second; in
+/// smallest diameters.
+inline constexpr double jamming_overlap = 0.02;
+inline constexpr double jammed_overlap = 0.01;
+
+/// Rigid contacts get softer with the fourth power of their overlap, up to this, in diameters of the smaller sphere,
+/// and up to this compliance, in inverse mass sums; what they overlap beyond it presses them apart.
+inline constexpr double rigid_yield_overlap = 0.016;
+inline constexpr double rigid_softness = 0.1;
+
+/// What sweeps may leave undone of the load of a rigid contact.
+inline constexpr double undone_share = 0.03;
+
+/// Nearer to the centre of the smaller sphere than this a contact gets stiffer, up to the second; in its diameters.
+inline constexpr double stiffening_rest = 0.25;
+inline constexpr double least_rest = 3e-2;
+
+/// Overlap up to which a contact is deferred beside an impact, in diameters of the smaller sphere.
+inline constexpr double deferred_overlap = 0.4;
+
 /// What the laws of all contacts of a step share.
 struct LawOfStep {
-    double h;                                ///< of this step or sub-step [s]
-    double h_before = h;                     ///< of the one before [s]
-    double threshold_speed = 0.0;            ///< slowest impact: that of the whole step [m/s]
-    bool rigid = false;                      ///< `projected`
-    double min_sweeps = 2.0;                 ///< N_min
-    double push_out_speed = __builtin_inf(); ///< p [m/s]
-    double parts = 1.0;                      ///< sub-steps of the whole step
-    double shallow_overlap = 0.0;            ///< of StepLength [m]
+    double h;                     ///< of this step or sub-step [s]
+    double threshold_speed = 0.0; ///< slowest impact: that of the whole step [m/s]
+    double elastic_speed = 0.0;   ///< opening so, a spring gives back all that it holds [m/s]
+    bool rigid = false;           ///< `projected`
+    double min_sweeps = 2.0;      ///< N_min
+    double push_out_speed = 0.0;  ///< p [m/s]
+    double parts = 1.0;           ///< sub-steps of the whole step
+    double min_diameter = 0.0;    ///< d_min [m]
 };
 
 /// Yes or no for each of these numbers.
 template <class N> using Answer = decltype(N{} < N{});
 
-/// The normal law u_n + Σ_n λ_n ≥ q_n of one contact.
+/// The normal law of one contact: 0 ≤ λ_n ⟂ u_n − min(q_n − Σ_n λ_n, parting) ≥ 0.
 template <class N> struct NormalLaw {
-    N target;         ///< q_n [m/s]
-    N compliance;     ///< Σ_n [1/kg]
-    N feedback_share; ///< of the feedback on κ, and so of the stiffness 4Υ/(Σ_n h²), that it takes
+    N target;      ///< q_n [m/s]
+    N compliance;  ///< Σ_n [1/kg]
+    N parting;     ///< at most it asks for [m/s]
+    N compression; ///< κ: what a load has pressed, and pushing out [m]
+    Answer<N> yields;
 };
 
 /// What the law of a contact depends on.
 template <class N> struct ContactEvent {
-    Answer<N> impact, open; ///< its kind; else it rests
-    N gap;                  ///< g, of a resting contact −κ, with the compression κ of its spring [m]
-    N u_n;                  ///< of v⁽⁰⁾, before gravity [m/s]
-    N inverse_mass_sum;     ///< W [1/kg]
-    N restitution;          ///< e
-    N stiffness;            ///< k [N/m]
-    Answer<N> jammed = {};  ///< TouchRecord
-    N u_n_turned = {};      ///< what the turn of a wall's normal since the step before has added to u_n [m/s]
+    N gap;            ///< g [m]
+    N diameter;       ///< of the smaller sphere [m]
+    N reduced_radius; ///< R* = r_a r_b/(r_a + r_b); at a wall r_a [m]
+    N u_n;            ///< of v⁽⁰⁾, before gravity [m/s] …
+    N u_n_before;     ///< … against the velocity that the wall had in the step before: 0 where a sphere goes with it
+    N closes;         ///< when the gap does so, with v⁽¹⁾ [s]
+    N inverse_mass_sum; ///< W [1/kg]
+    N restitution;      ///< e
+    N stiffness;        ///< k [N/m]
+    N load;             ///< λ_n that the step before would have had, had it been whole [N s] …
+    N compression;      ///< … and the κ that it has left [m]
+    Answer<N> struck;   ///< it was an impact then
+    Answer<N> jammed;   ///< it had jammed
 };
 
 template <class N> [[gnu::always_inline]] inline N smaller(const N& a, const N& b)
@@ -63,87 +108,31 @@ template <class N> [[gnu::always_inline]] inline N larger(const N& a, const N& b
     return a < b ? b : a;
 }
 
-/// Σ_n of a resting contact of `matched`: that of the material's stiffness k, but no stiffer than N_min sweeps can
-/// carry.
+/// Σ_n of a spring: that of the material's stiffness k, but no stiffer than N_min sweeps can carry.
 template <class N>
-[[gnu::always_inline]] inline N matched_compliance(
-    const N& stiffness, const N& inverse_mass_sum, double h, double min_sweeps)
+[[gnu::always_inline]] inline N spring_compliance(const N& stiffness, const N& inverse_mass_sum, const LawOfStep& step)
 {
-    return larger<N>(4.0 * upsilon / (stiffness * h * h), sigma_per_sweep / min_sweeps * inverse_mass_sum);
-}
-
-/// What a spring of the stiffness that a compliance stands for, k = 4 Υ / (Σ_n h²), holds at the compression κ [J].
-template <class N> [[gnu::always_inline]] inline N spring_energy(const N& kappa, const N& compliance, double h)
-{
-    return 2.0 * upsilon / (compliance * h * h) * kappa * kappa;
-}
-
-/// The compression κ of a contact's spring: how much of its overlap a load has pressed [m]. What an impact leaves
-/// overlapping, or closes beside it, has stored nothing, and must not push as if it had. It becomes compression with
-/// the push-out speed p, so that a deep overlap does not become a shot.
-/// @param before κ of the step before, not read where the contact was not loaded in it; @param u_n of v⁽⁰⁾, against
-/// the wall's velocity then
-template <class N>
-[[gnu::always_inline]] inline N compression(
-    const N& gap, const N& before, const N& u_n, const Answer<N>& was_loaded, const LawOfStep& step)
-{
-    const N depth = larger<N>(N{}, -gap);
-    const N borne = was_loaded ? larger<N>(N{}, before - step.h_before * u_n) : N{};
-    return smaller<N>(depth, borne + step.h * step.push_out_speed);
+    return larger<N>(
+        4.0 * upsilon / (stiffness * step.h * step.h), sigma_per_sweep / step.min_sweeps * inverse_mass_sum);
 }
 
 /// What a sub-step takes of the feedback on κ. The stiffness that sweeps can carry goes with 1/h², so with all of it a
-/// bed at rest would rise when its step is split. Contacts that are little compressed keep the stiffness of the whole
-/// step, and those with five times that κ have that of the sub-step.
-template <class N> [[gnu::always_inline]] inline N feedback_share(const ContactEvent<N>& event, const LawOfStep& step)
-{
-    const N one = N{} + 1.0;
-    const N in_part = matched_compliance<N>(event.stiffness, event.inverse_mass_sum, step.h, step.min_sweeps);
-    const N in_whole =
-        matched_compliance<N>(event.stiffness, event.inverse_mass_sum, step.parts * step.h, step.min_sweeps);
-    const N as_stiff = in_part / (in_whole * step.parts * step.parts);
-    const N deep = smaller<N>(one, larger<N>(N{}, (-event.gap / step.shallow_overlap - 1.0) / 4.0));
-    return as_stiff + deep * (1.0 - as_stiff);
-}
-
-/// What a rigid contact at a concave wall gives back of the velocity that it takes. A sphere that runs along it goes on
-/// chords: the turn of the normal makes it meet the wall with u_n < 0 in every step, and u_n ≥ 0 would brake it. With
-/// half of the turn against each end of a chord its speed is kept. Never more than it came with.
-template <class N> [[gnu::always_inline]] inline N turned_back(const ContactEvent<N>& event)
-{
-    return larger<N>(N{}, smaller<N>(-event.u_n, -0.5 * event.u_n_turned));
-}
-
-/// `matched` (the default): the note's own step, eq. (2), with a compliance that the sweeps can carry. A jammed contact
-/// parts with the push-out speed at most, and stores nothing.
+/// bed at rest would rise when its step is split: springs keep the stiffness of the whole step.
 template <class N>
-[[gnu::always_inline]] inline NormalLaw<N> matched_law(const ContactEvent<N>& event, const LawOfStep& step)
+[[gnu::always_inline]] inline N feedback_share(const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
 {
-    const N compliance = matched_compliance<N>(event.stiffness, event.inverse_mass_sum, step.h, step.min_sweeps);
-    const N share = step.parts > 1.0 ? feedback_share<N>(event, step) : N{} + 1.0;
-    const N push_out = -4.0 / step.h * upsilon * event.gap;
-    const N yielding = smaller<N>(push_out, N{} + step.push_out_speed);
-    return {event.jammed ? yielding : share * push_out + upsilon * event.u_n, compliance, event.jammed ? N{} : share};
+    const double parts_squared = step.parts * step.parts;
+    return smaller<N>(N{} + 1.0, compliance / (parts_squared * sigma_per_sweep / step.min_sweeps * inverse_mass_sum));
 }
 
-/// `projected`: rigid, u_n ≥ 0; overlap is removed by moving the spheres (position_projection.hpp). A jammed contact
-/// yields: it has an impulse in proportion to the speed with which it is closed, and none when it is not.
+/// What a spring holds [J]: ½ k (κ² + h κ u_n) + u_n²/(4 Σ_n) with k = 4 Υ/(Σ_n h²). With this a loaded spring beside
+/// any other contacts adds −(u_n⁺ + u_n)²/(4 Σ_n) to the energy of a step (METHOD, energy).
 template <class N>
-[[gnu::always_inline]] inline NormalLaw<N> projected_law(const ContactEvent<N>& event, const LawOfStep& step)
+[[gnu::always_inline]] inline N spring_energy(
+    const N& kappa, const N& u_n, const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
 {
-    const N compliance = matched_compliance<N>(event.stiffness, event.inverse_mass_sum, step.h, step.min_sweeps);
-    return {event.jammed ? N{} : turned_back<N>(event), event.jammed ? compliance : N{}, N{}};
-}
-
-/// The law of a contact by its kind: METHOD (4).
-template <class N>
-[[gnu::always_inline]] inline NormalLaw<N> normal_law(const ContactEvent<N>& event, const LawOfStep& step)
-{
-    const NormalLaw<N> resting = step.rigid ? projected_law<N>(event, step) : matched_law<N>(event, step);
-    const N impact = -event.restitution * event.u_n;
-    const N open = step.rigid ? -event.gap / step.h + turned_back<N>(event) : -event.gap / step.h;
-    return {event.impact ? impact : (event.open ? open : resting.target),
-        (event.impact | event.open) ? N{} : resting.compliance, resting.feedback_share};
+    const N share = feedback_share<N>(compliance, inverse_mass_sum, step), way = kappa / step.h;
+    return (2.0 * upsilon * share * way * (way + u_n) + 0.25 * u_n * u_n) / compliance;
 }
 
 /// When two spheres that move so touch: infinite if never, negative if they overlap and approach [s].
@@ -157,14 +146,169 @@ template <class N, class Root>
     return ((approach > 0.0) & (square >= 0.0)) ? closes : N{} + __builtin_inf();
 }
 
-/// Whether a contact is an impact in this step.
-/// @param closes when the gap does so by itself [s]; @param loaded in the step before it had an impulse
-template <class N>
-[[gnu::always_inline]] inline Answer<N> is_impact(
-    const N& gap, const N& u_n, const N& closes, const Answer<N>& loaded, const N& restitution, const LawOfStep& step)
+/// Whether spheres touch already, but for rounding.
+template <class N> [[gnu::always_inline]] inline Answer<N> touches(const N& gap, const LawOfStep& step)
 {
-    const Answer<N> fast = (restitution > 0.0) & (u_n < N{} - step.threshold_speed);
-    return fast & (((gap <= 0.0) & (!loaded)) | ((gap > 0.0) & (closes < N{} + step.h)));
+    return gap <= N{} + touching_gap * step.min_diameter;
+}
+
+/// The impulse that an impact by itself would have [N s].
+template <class N> [[gnu::always_inline]] inline N impact_size(const ContactEvent<N>& event)
+{
+    return (1.0 + event.restitution) * larger<N>(N{}, -event.u_n) / event.inverse_mass_sum;
+}
+
+/// By how much a contact overlaps when it begins to yield [m].
+template <class N> [[gnu::always_inline]] inline N elastic_overlap(const ContactEvent<N>& event, const LawOfStep& step)
+{
+    const Answer<N> is_fast = event.u_n_before < N{} - step.elastic_speed;
+    const N begins = event.reduced_radius * (is_fast ? N{} + fast_yield_overlap : N{} + yield_overlap);
+    const N bounded = event.jammed ? N{} + jammed_overlap * step.min_diameter : begins;
+    return step.rigid ? rigid_yield_overlap * event.diameter : bounded;
+}
+
+/// Σ_n of a rigid contact: so small where it is shallow that nobody sees it, but where walls leave too little room,
+/// impulses that no velocity obeys do not grow with every sweep.
+template <class N> [[gnu::always_inline]] inline N rigid_compliance(const ContactEvent<N>& event)
+{
+    const N part = smaller<N>(N{} + 1.0, -event.gap / (rigid_yield_overlap * event.diameter)), square = part * part;
+    return rigid_softness * square * square * event.inverse_mass_sum;
+}
+
+/// How many times stiffer a contact is that yields: none is as deep as the centre of its smaller sphere.
+template <class N> [[gnu::always_inline]] inline N stiffening(const ContactEvent<N>& event)
+{
+    const N rest = larger<N>(N{} + least_rest, 0.5 + event.gap / event.diameter);
+    const N growth = larger<N>(N{} + 1.0, stiffening_rest / rest);
+    return growth * growth;
+}
+
+/// Whether a contact is an impact in this step: it closes, faster than gravity alone would have it, and has no load.
+/// What impacts have not stopped before it is as deep as a deferred one may be, yields; and what has been an impact,
+/// touches and would part again with less than the slowest impact, rests.
+template <class N>
+[[gnu::always_inline]] inline Answer<N> is_impact(const ContactEvent<N>& event, const LawOfStep& step)
+{
+    const Answer<N> closes = touches<N>(event.gap, step) | (event.closes < N{} + step.h);
+    const Answer<N> settles =
+        touches<N>(event.gap, step) & (-event.restitution * event.u_n < N{} + step.threshold_speed);
+    const Answer<N> unstopped = (-event.gap > deferred_overlap * event.diameter) | (event.struck & settles);
+    return (event.u_n < N{} - step.threshold_speed) & closes & (event.load < load_share * impact_size<N>(event)) &
+           (!unstopped);
+}
+
+/// The target of a row that has no spring. A rigid row adds ½ λ_n (u_n⁺ + u_n) to the energy of a step, whatever other
+/// contacts do: nothing, if it asks for no more than −u_n, and no more than λ_n times the push, if it pushes.
+template <class N> [[gnu::always_inline]] inline N passive_target(const N& push, const N& u_n)
+{
+    return smaller<N>(push, 2.0 * larger<N>(N{}, push) - u_n);
+}
+
+/// The target of a rigid contact that touches: what sweeps leave undone of its load may not let it sink, so that much
+/// of a parting speed is taken for none. It adds at most λ_n times the slack to the energy, as if it pushed so.
+template <class N> [[gnu::always_inline]] inline N rigid_target(const ContactEvent<N>& event, const LawOfStep& step)
+{
+    const N undone = undone_share * event.inverse_mass_sum * event.load;
+    return smaller<N>(N{}, 2.0 * smaller<N>(N{} + step.push_out_speed, undone) - event.u_n_before);
+}
+
+/// How fast a spring parts at most, beyond the speed of pushing out: what was pressed faster than impacts begin comes
+/// back with e of the speed that it could have; κ/h is more than any spring has. A contact that does so gives energy
+/// away only where it does not close, so it may always part as fast as it has closed.
+template <class N>
+[[gnu::always_inline]] inline N spring_parting(
+    const ContactEvent<N>& event, const N& kappa, const N& before, const LawOfStep& step)
+{
+    const N pushing = larger<N>(N{}, smaller<N>(N{} + step.push_out_speed, (-event.gap - before) / step.h));
+    return larger<N>(step.elastic_speed / 3.0 + pushing + event.restitution * kappa / step.h, -event.u_n_before);
+}
+
+/// The law of a contact where no impact is beside it, METHOD (4).
+template <class N>
+[[gnu::always_inline]] inline NormalLaw<N> normal_law(
+    const ContactEvent<N>& event, const Answer<N>& impact, const LawOfStep& step)
+{
+    const N none = {}, infinite = none + __builtin_inf(), least = none + touching_gap * step.min_diameter;
+    const N compliance = spring_compliance<N>(event.stiffness, event.inverse_mass_sum, step);
+    const N share = step.parts > 1.0 ? feedback_share<N>(compliance, event.inverse_mass_sum, step) : none + 1.0;
+    const N per_way = 4.0 * upsilon / step.h * share; // of feedback: the speed that it asks for, by κ
+
+    const Answer<N> open = event.gap > least, yields = -event.gap > elastic_overlap<N>(event, step);
+    const Answer<N> rests = !(open | yields | impact);
+    const N before = event.compression > least ? event.compression : none;
+    const N kappa = smaller<N>(-event.gap, before + step.h * step.push_out_speed);
+    const Answer<N> is_spring = step.rigid ? Answer<N>{} : rests & (before > 0.0);
+    const N pushing = smaller<N>(none + step.push_out_speed, -event.gap * per_way);
+    const N push = open ? -event.gap / step.h : (step.rigid ? none : (yields ? pushing : per_way * kappa));
+
+    const N passive = passive_target<N>(push, event.u_n_before);
+    const N alone = is_spring ? push : (step.rigid ? (open ? passive : rigid_target<N>(event, step)) : passive);
+    // What gives way does so like a spring that all of its overlap has pressed, but parts no faster than it would
+    // alone.
+    const Answer<N> gives_way = !(impact | (step.rigid ? open : !yields));
+    const N pressed = -event.gap - (step.rigid ? rigid_yield_overlap * event.diameter : none);
+    const N target = gives_way ? larger<N>(alone, pressed * per_way) : alone;
+    const N soft = (step.rigid ? rigid_compliance<N>(event) : compliance) / stiffening<N>(event);
+    const Answer<N> keeps = step.rigid ? Answer<N>{} : is_spring | (rests & (event.u_n_before < least / step.h));
+    return {impact ? -event.restitution * event.u_n : target,
+        gives_way ? soft : (step.rigid | impact ? none : compliance),
+        gives_way & (target > alone) ? alone : (is_spring ? spring_parting<N>(event, kappa, before, step) : infinite),
+        keeps ? kappa : -infinite, yields & !impact};
+}
+
+/// A contact that had no load beside an impact of one of its spheres is deferred: it does not close further than to a
+/// quarter of a diameter, and in the next step it is an impact of its own.
+inline double deferred_target(double gap, double u_n, const LawOfStep& step)
+{
+    return smaller(-(gap + deferred_overlap * step.min_diameter) / step.h, -u_n);
+}
+
+/// A contact that has a load beside an impact of one of its spheres bears it: it is rigid.
+inline double bearing_target(double gap, double u_n, const LawOfStep& step)
+{
+    return smaller(-larger(0.0, gap) / step.h, -u_n);
+}
+
+/// What κ a spring may begin with that bears an impact, so that it comes to hold no more than it did.
+inline double borne_compression(double kappa, double u_n, const LawOfStep& step)
+{
+    const double kept = kappa + 0.5 * step.h * smaller(0.0, u_n);
+    return kept > 0.0 ? kept : -__builtin_inf();
+}
+
+/// What a contact hands on of its κ, and what the next step makes of it: half of the way that its spheres go in a step
+/// is taken along the normal of before, and half along that of after, which a curved wall turns. 0: it has no spring.
+template <class N> [[gnu::always_inline]] inline N handed_on(const N& kappa_after, const N& u_n, const LawOfStep& step)
+{
+    return kappa_after > touching_gap * step.min_diameter ? kappa_after + 0.5 * step.h * u_n : N{};
+}
+template <class N> [[gnu::always_inline]] inline N taken_over(const N& handed, const N& u_n, const LawOfStep& step)
+{
+    return handed > 0.0 ? handed - 0.5 * step.h * u_n : N{};
+}
+
+/// κ of a spring after a step, which its impulse tells: q_n − Σ_n λ_n is u_n. What was compressed faster than impacts
+/// begin, e has a part in: it gives way 1/e² as fast (Walton & Braun 1986); pushing out is no part of that speed.
+/// @param gap at the beginning of the step [m]
+template <class N>
+[[gnu::always_inline]] inline N compression_after(
+    const N& kappa, const N& gap, const N& u_n, const N& impulse, const N& restitution, const LawOfStep& step)
+{
+    const N pushing = smaller<N>(N{} + step.push_out_speed, (-gap - kappa) / step.h);
+    const N fast = larger<N>(N{}, u_n - step.elastic_speed - larger<N>(N{}, pushing));
+    const N e = larger<N>(N{} + least_restitution, restitution);
+    const N gives_way = fast * larger<N>(N{}, 1.0 / (e * e) - 1.0);
+    const N after = kappa - step.h * (u_n + gives_way);
+    return ((impulse > 0.0) & (after > 0.0)) ? after : N{};
+}
+
+/// What a contact that has no spring may have put in, pushing out what overlaps [J].
+template <class N>
+[[gnu::always_inline]] inline N push_out_energy(
+    const N& kappa, const N& gap, const N& target, const N& impulse, const LawOfStep& step)
+{
+    const N push = smaller<N>(N{} + step.push_out_speed, -gap * (4.0 * upsilon / step.h));
+    return ((kappa < 0.0) & (target > 0.0)) ? impulse * push : N{};
 }
 
 } // namespace talus

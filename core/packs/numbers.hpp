@@ -106,6 +106,13 @@ template <int width> [[gnu::always_inline]] inline void store_floats(float* to, 
     __builtin_memcpy(to, &floats, sizeof floats);
 }
 
+template <int width> [[gnu::always_inline]] inline Numbers<width> load_floats(const float* from)
+{
+    typename Register<width>::Floats floats;
+    __builtin_memcpy(&floats, from, sizeof floats);
+    return __builtin_convertvector(floats, Numbers<width>);
+}
+
 template <int width> struct Vector {
     Numbers<width> x, y, z;
 

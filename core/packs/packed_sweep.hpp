@@ -150,10 +150,14 @@ template <int width, bool wall, class R, bool full> struct Contacts {
         const Numbers<width> u_n = u.dot(normal), old_normal = impulse.dot(normal);
         const Numbers<width> excess =
             (u_n + load<width>(pack.compliance + first) * old_normal) - load<width>(pack.target + first);
-        const Numbers<width> wanted = old_normal - relaxation * (excess * load<width>(pack.normal_mass + first));
+        const Numbers<width> of_spring = excess * load<width>(pack.normal_mass + first);
+        Numbers<width> tangent_mass = load<width>(pack.tangent_mass + first), rigid_mass = tangent_mass;
+        if constexpr (spins) rigid_mass = tangent_mass * (1.0 + inverse_inertia * (arm_scale * arm_scale)); // 1/W
+        const Numbers<width> of_parting = (u_n - load<width>(pack.parting + first)) * rigid_mass;
+        const Numbers<width> wanted = old_normal - relaxation * (of_spring < of_parting ? of_parting : of_spring);
         const Numbers<width> new_normal = wanted < 0.0 ? Numbers<width>{} : wanted;
         if constexpr (!R::friction) return normal * new_normal;
-        const Numbers<width> tangent_mass = relaxation * load<width>(pack.tangent_mass + first);
+        tangent_mass = relaxation * tangent_mass;
         Vector<width> tangent = (impulse - normal * old_normal) - (u - normal * u_n) * tangent_mass;
         cut_to_disk<width>(tangent, load<width>(pack.friction + first) * new_normal);
         return normal * new_normal + tangent;

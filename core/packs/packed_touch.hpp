@@ -90,25 +90,35 @@ template <int width>
     gather<width>(b, motion_b);
     const Vector<width> apart = across<width>(Balls<width>(sphere_a, balls), Balls<width>(sphere_b, balls), step);
     const Vector<width> velocity{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    const Numbers<width> radii = a[7] + b[7], one = radii * 0.0 + 1.0;
+    const Numbers<width> radii = a[7] + b[7], none = {}, one = none + 1.0;
     const Numbers<width> square = apart.dot(apart), distance = root<width>(square);
+
+    // A gap is laid where the spheres' free paths close it, or come nearest in this step.
+    const Numbers<width> approach = -apart.dot(velocity), speed_squared = velocity.dot(velocity);
+    const Numbers<width> closes =
+        closing_time<Numbers<width>>(approach, speed_squared, square - radii * radii, root<width>);
+    const Numbers<width> nearest =
+        smaller<Numbers<width>>(none + step.law.h, approach / (speed_squared > 0.0 ? speed_squared : one));
+    const Flags<width> touching = touches<Numbers<width>>(distance - radii, step.law),
+                       ahead = (!touching) & (approach > 0.0);
+    const Numbers<width> instant = ahead ? smaller<Numbers<width>>(closes, nearest) : none;
+    const Vector<width> then = apart + velocity * instant;
+    const Numbers<width> distance_then = root<width>(then.dot(then));
     // Spheres with one centre are pushed apart along a fixed direction: any will do, but always the same.
-    const Flags<width> separate = distance > 0.0;
-    const Numbers<width> divisor = separate ? distance : one;
-    const Vector<width> normal{apart.x / divisor, apart.y / divisor, separate ? apart.z / divisor : one};
-    const Numbers<width> gap = distance - radii, u_n = normal.dot(velocity);
+    const Flags<width> separate = distance_then > 0.0;
+    const Numbers<width> divisor = separate ? distance_then : one;
+    const Vector<width> normal{then.x / divisor, then.y / divisor, separate ? then.z / divisor : one};
+    const Numbers<width> gap = (ahead ? normal.dot(apart) : distance) - radii, u_n = normal.dot(velocity);
     const Flags<width> within = (gap <= step.reach) | (gap + step.horizon * u_n <= 0.0);
     normal.store(contact.normal, first);
-    store<width>(contact.arm_scale + first, distance / radii);
+    store<width>(contact.arm_scale + first, distance_then / radii);
     store<width>(contact.inverse_mass_sum + first, a[3] + b[3]);
     store<width>(touch.gap + first, gap);
-    store<width>(touch.u_n + first, u_n);
-    store<width>(touch.u_n_ahead + first, u_n); // gravity is the same for both
+    store<width>(touch.diameter + first, 2.0 * smaller<Numbers<width>>(a[7], b[7]));
+    store<width>(touch.reduced_radius + first, a[7] * b[7] / radii);
+    store<width>(touch.u_n + first, u_n); // gravity is the same for both
     store<width>(touch.u_n_before + first, u_n);
-    store<width>(touch.u_n_turned + first, Numbers<width>{}); // they are convex: it parts them
-    if (step.restitution)
-        store<width>(touch.closes + first, closing_time<Numbers<width>>(-apart.dot(velocity), velocity.dot(velocity),
-                                               square - radii * radii, root<width>));
+    store<width>(touch.closes + first, closes);
     return within & ~empty;
 }
 
@@ -130,37 +140,7 @@ template <int width>
     return {impact ? none : warm.x, impact ? none : warm.y, impact ? none : warm.z};
 }
 
-/// With k = 4 Υ / (Σ_n h²), the stiffness that the compliance stands for [J].
-template <class N>
-[[gnu::always_inline]] inline N stored_energy(const N& kappa, const NormalLaw<N>& law, const StepConstants& step)
-{
-    if (step.law.rigid) return N{};
-    const auto is_spring = (kappa > 0.0) & (law.compliance > 0.0);
-    const N compliance = is_spring ? law.compliance : N{} + 1.0;
-    const N energy = spring_energy<N>(kappa, compliance, step.law.h) * law.feedback_share;
-    return is_spring ? energy : N{};
-}
-
-/// Notes what does not close by itself, or opens. What an impact elsewhere closes within this step is an impact of its
-/// own in the next one: such a contact waits beside one. Spheres that touch without a load count as apart. In a split
-/// step nothing waits: walls must hold what is thrown at them. Left out at once are spheres that miss each other: the
-/// law of their gap along the normal of now would brake them.
-/// @param is_free no impact, has restitution, and was not loaded
-/// Returns what is left out at once.
-template <int width>
-[[gnu::always_inline]] inline Flags<width> leave_out(
-    TouchPack& touch, int first, const Numbers<width>& closes, const Flags<width>& is_free, const StepConstants& step)
-{
-    const Numbers<width> gap = load<width>(touch.gap + first), none = {};
-    const Numbers<width> at_end = gap + step.law.h * load<width>(touch.u_n_ahead + first);
-    const Flags<width> misses = (gap > 0.0) & (closes >= none + step.law.h);
-    const Flags<width> apart = misses | ((gap <= 0.0) & (at_end >= none - step.touching));
-    const Flags<width> may = step.law.parts > 1.0 ? Flags<width>{} : is_free;
-    store<width>(touch.waits + first, may & apart);
-    return may & misses & (at_end < 0.0);
-}
-
-/// The law of these touches, and the numbers of their contacts' solve: zeros for those that are left out.
+/// The law of these touches, and the numbers of their contacts' solve: zeros for those that are out of reach.
 template <int width>
 [[gnu::always_inline]] inline void apply_law(
     ContactPack& contact, TouchPack& touch, int first, const Flags<width>& within_reach, const StepConstants& step)
@@ -172,43 +152,47 @@ template <int width>
     {
         return load<width>(row + first);
     };
-    const N gap = number(touch.gap), restitution = number(touch.restitution), u_n = number(touch.u_n);
-    const N closes = step.restitution ? number(touch.closes) : none, w = number(contact.inverse_mass_sum);
-    const F loaded = load_flags<width>(touch.loaded + first);
     const Vector<width> normal = Vector<width>::load(contact.normal, first);
+    const Vector<width> carried = Vector<width>::load(touch.carried, first);
+    const N w = number(contact.inverse_mass_sum), arm_scale = number(contact.arm_scale);
+    const F pushed = load_flags<width>(touch.pushed + first);
+    const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.reduced_radius),
+        number(touch.u_n), number(touch.u_n_before), number(touch.closes), w, number(touch.restitution),
+        number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts,
+        taken_over<N>(number(touch.compression), number(touch.u_n_before), step.law),
+        load_flags<width>(touch.struck + first), load_flags<width>(touch.jammed + first)};
+    const F closes = is_impact<N>(event, step.law), impact = closes & within_reach;
+    const NormalLaw<N> law = normal_law<N>(event, impact, step.law);
+    const Vector<width> warm = warm_impulse<width>(carried, normal, number(contact.friction), impact);
 
-    const F impact = step.restitution ? is_impact<N>(gap, u_n, closes, loaded, restitution, step.law) : F{};
-    const F is_open = (!impact) & (gap > 0.0), rests = (!impact) & (gap <= 0.0);
-    const N friction = number(contact.friction);
-    const Vector<width> warm = warm_impulse<width>(Vector<width>::load(touch.carried, first), normal, friction, impact);
-    const N u_n_before = number(touch.u_n_before);
-    const F jammed = load_flags<width>(touch.jammed + first);
-    const N kappa = jammed ? none : compression<N>(gap, number(touch.compression), u_n_before, loaded, step.law);
-    const auto law = normal_law<N>({impact, is_open, rests & ~jammed ? -kappa : gap, impact ? u_n : u_n_before, w,
-                                       restitution, number(touch.stiffness), jammed, number(touch.u_n_turned)},
-        step.law);
-
-    const F is_free = (!impact) & (restitution > 0.0) & (!loaded);
-    const F in_problem = within_reach & ~leave_out<width>(touch, first, closes, is_free, step);
     const auto put = [&](double* row, const N& numbers) __attribute__((always_inline))
     {
-        store<width>(row + first, in_problem ? numbers : none);
+        store<width>(row + first, within_reach ? numbers : none);
     };
     put(contact.impulse[0], warm.x);
     put(contact.impulse[1], warm.y);
     put(contact.impulse[2], warm.z);
-    const N arm_scale = number(contact.arm_scale);
     put(contact.target, law.target);
     put(contact.compliance, law.compliance);
+    put(contact.parting, law.parting);
     put(contact.normal_mass, 1.0 / (w + law.compliance));
     put(contact.tangent_mass, 1.0 / (w * (1.0 + step.inverse_inertia * arm_scale * arm_scale)));
     put(contact.inverse_mass_sum, w);
-    put(touch.stored_energy, rests ? stored_energy<N>(kappa, law, step) : none);
-    store<width>(touch.compression + first, kappa);
-    store<width>(touch.in_problem + first, in_problem);
-    store<width>(touch.impact + first, impact);
-    store<width>(touch.open + first, is_open);
-    store<width>(touch.carries + first, warm.dot(normal) > 0.0);
+
+    const N spring = spring_compliance<N>(event.stiffness, w, step.law);
+    const N least = none + touching_gap * step.law.min_diameter, before = smaller<N>(-event.gap, event.compression);
+    const F keeps = within_reach & (law.compression > none), stored = keeps & (event.compression > least);
+    const N energy = spring_energy<N>(law.compression, event.u_n_before, spring, w, step.law);
+    const N energy_before = spring_energy<N>(before, event.u_n_before, spring, w, step.law);
+    const N pushed_alone = spring_energy<N>(law.compression, none, spring, w, step.law);
+    put(touch.stored_energy, stored ? energy : (keeps ? pushed_alone : none));
+    put(touch.push_out_energy, stored ? energy - energy_before : (keeps ? pushed_alone : none));
+    put(touch.spring, spring);
+    put(touch.impact_size, impact ? impact_size<N>(event) : none);
+    store<width>(touch.compression + first, law.compression);
+    const F open = event.gap > least;
+    const F yields = law.yields;
+    store<width>(touch.kind + first, impact ? F{} + 2 : (open ? F{} + 1 : (yields ? F{} + 3 : F{})));
 }
 
 template <int width> void make_contacts(ContactPack& contact, TouchPack& touch, const StepConstants& step)
@@ -219,8 +203,8 @@ template <int width> void make_contacts(ContactPack& contact, TouchPack& touch, 
 
 /// What the spheres' materials and slots say of these touches.
 template <int width>
-[[gnu::always_inline]] inline void recall(ContactPack& contact, TouchPack& touch, RecordPack& record, int first,
-    const SphereNumbers& spheres, const StepConstants& step)
+[[gnu::always_inline]] inline void recall(
+    ContactPack& contact, TouchPack& touch, RecordPack& record, int first, const SphereNumbers& spheres)
 {
     const double* laws[width];
     std::uint32_t slot[width];
@@ -238,8 +222,9 @@ template <int width>
     const auto carried = CarriedRecords<width>::gather(slot, spheres.carried);
     carried.impulse.store(touch.carried, first);
     store<width>(touch.compression + first, carried.compression);
-    store<width>(touch.loaded + first, carried.touch > std::int64_t{0});
-    store<width>(touch.jammed + first, carried.touch > std::int64_t{step.jam_steps});
+    store<width>(touch.struck + first, carried.touch == std::int64_t{2});
+    store<width>(touch.pushed + first, carried.touch == std::int64_t{5});
+    store<width>(touch.jammed + first, (carried.touch == std::int64_t{3}) | (carried.touch == std::int64_t{4}));
     narrow<width>(record.touch + first, carried.touch);
 }
 
@@ -249,83 +234,98 @@ template <int width>
     RecordPack& record, TouchSums& sums, const TouchPack& touch, int first, const Flags<width>& within_reach)
 {
     const Numbers<width> gap = load<width>(touch.gap + first), none = {};
-    const Flags<width> impact = load_flags<width>(touch.impact + first), open = load_flags<width>(touch.open + first);
-    const Flags<width> in_problem = load_flags<width>(touch.in_problem + first);
-    const Flags<width> overlaps = within_reach & (gap < 0.0);
+    const Flags<width> kind = load_flags<width>(touch.kind + first), overlaps = within_reach & (gap < 0.0);
     const auto add = [&](double* sum, const Numbers<width>& part) __attribute__((always_inline))
     {
         store<width>(sum + first, load<width>(sum + first) + part);
     };
     add(sums.overlap, overlaps ? -gap : none);
     add(sums.stored_energy, load<width>(touch.stored_energy + first));
+    add(sums.push_out_energy, load<width>(touch.push_out_energy + first));
     const Numbers<width> worst = load<width>(sums.worst_overlap + first);
     store<width>(sums.worst_overlap + first, larger<Numbers<width>>(worst, overlaps ? -gap : none));
     store<width>(sums.overlapping + first, load_flags<width>(sums.overlapping + first) - overlaps);
 
     store<width>(record.gap + first, gap);
     store_floats<width>(record.compression + first, load<width>(touch.compression + first));
-    narrow<width>(reinterpret_cast<std::uint8_t*>(record.kind) + first, in_problem & ((impact & 2) | (open & 1)));
+    store_floats<width>(record.spring + first, load<width>(touch.spring + first));
+    store_floats<width>(record.restitution + first, load<width>(touch.restitution + first));
+    store_floats<width>(record.hands_on + first, kind == std::int64_t{2} ? none : none + __builtin_inf());
+    narrow<width>(reinterpret_cast<std::uint8_t*>(record.kind) + first, within_reach & kind);
     narrow<width>(record.touch + first, within_reach & widened<width>(record.touch + first));
-    record.in_problem |= static_cast<std::uint8_t>(bits<width>(in_problem) << first);
-    record.waits |=
-        static_cast<std::uint8_t>(bits<width>(in_problem & load_flags<width>(touch.waits + first)) << first);
+    record.in_problem |= static_cast<std::uint8_t>(bits<width>(within_reach) << first);
 }
 
 template <int width>
-TouchMarks touch_spheres(
+PackImpacts touch_spheres(
     ContactPack& contact, RecordPack& record, TouchSums& sums, const SphereNumbers& spheres, const StepConstants& step)
 {
     TouchPack touch;
-    TouchMarks marks;
-    record.in_problem = record.waits = 0;
+    PackImpacts impacts;
+    record.in_problem = 0;
 #pragma GCC unroll 4
     for (int first = 0; first < pack_size; first += width) {
-        recall<width>(contact, touch, record, first, spheres, step);
+        recall<width>(contact, touch, record, first, spheres);
         const Flags<width> within_reach = detect<width>(contact, touch, first, spheres.balls, spheres.motion, step);
         apply_law<width>(contact, touch, first, within_reach, step);
         take_down<width>(record, sums, touch, first, within_reach);
-        const Flags<width> in_problem = load_flags<width>(touch.in_problem + first);
-        marks.impact |= bits<width>(in_problem & load_flags<width>(touch.impact + first)) << first;
-        marks.carries |= bits<width>(in_problem & load_flags<width>(touch.carries + first)) << first;
+        const Numbers<width> size = load<width>(touch.impact_size + first);
+        store<width>(impacts.size + first, size);
+        impacts.lanes |= bits<width>(size > 0.0) << first;
     }
-    return marks;
+    return impacts;
 }
 
 template <int width>
-double hand_on(const ContactPack& contact, RecordPack& record, double deep, unsigned& deep_lanes, double* carried)
+HandedOn hand_on(const ContactPack& contact, RecordPack& record, const LawOfStep& law, double* carried)
 {
-    double worst = 0.0;
-    deep_lanes = 0;
+    using N = Numbers<width>;
+    using F = Flags<width>;
+    HandedOn handed;
 #pragma GCC unroll 4
     for (int first = 0; first < pack_size; first += width) {
         const Vector<width> normal = Vector<width>::load(contact.normal, first);
         const Vector<width> impulse = Vector<width>::load(contact.impulse, first);
-        const Numbers<width> along = impulse.dot(normal), none = {};
+        const N along = impulse.dot(normal), none = {};
         const Vector<width> tangent = impulse - normal * along;
-        const Numbers<width> excess = root<width>(tangent.dot(tangent)) - load<width>(contact.friction + first) * along;
-        for (int lane = 0; lane < width; ++lane) worst = worst < excess[lane] ? excess[lane] : worst;
+        const N excess = root<width>(tangent.dot(tangent)) - load<width>(contact.friction + first) * along;
 
-        const Flags<width> kind = widened<width>(reinterpret_cast<const std::uint8_t*>(record.kind) + first);
-        const Flags<width> keeps = kind != std::int64_t{2}; // an impact hands nothing on
-        const Flags<width> is_deep = -load<width>(record.gap + first) > none + deep;
-        const Flags<width> loaded = keeps & (along > 0.0) & 1;
-        const Flags<width> touch = is_deep ? widened<width>(record.touch + first) : loaded;
+        const N spring = load_floats<width>(record.spring + first), w = load<width>(contact.inverse_mass_sum + first);
+        const N of_spring = load<width>(contact.target + first) - load<width>(contact.compliance + first) * along;
+        const N u_n = smaller<N>(of_spring, load<width>(contact.parting + first));
+        const N gap = load<width>(record.gap + first);
+        const N kappa = compression_after<N>(load_floats<width>(record.compression + first), gap, u_n, along,
+            load_floats<width>(record.restitution + first), law);
+        const N energy = spring_energy<N>(kappa, u_n, spring, w, law);
+        const N pushed = push_out_energy<N>(
+            load_floats<width>(record.compression + first), gap, load<width>(contact.target + first), along, law);
+        const F kind = widened<width>(reinterpret_cast<const std::uint8_t*>(record.kind) + first);
+        const F may_push = (kind == std::int64_t{0}) | (kind == std::int64_t{3});
+        const F keeps_spring = kappa > touching_gap * law.min_diameter;
+        for (int lane = 0; lane < width; ++lane) {
+            handed.cone_violation = handed.cone_violation < excess[lane] ? excess[lane] : handed.cone_violation;
+            handed.stored_energy += keeps_spring[lane] ? energy[lane] : 0.0;
+            handed.push_out_energy += may_push[lane] ? pushed[lane] : 0.0;
+        }
+
+        const N most = load_floats<width>(record.hands_on + first);
+        const N share = along > most ? most / along : none + 1.0;
+        const F is_deep = -gap > none + jammed_overlap * law.min_diameter;
+        const F now =
+            (along > 0.0) & (kind == std::int64_t{2} ? F{} + 2 : (kind == std::int64_t{1} ? F{} + 5 : F{} + 1));
+        const F touch = is_deep ? widened<width>(record.touch + first) : now;
         narrow<width>(record.touch + first, touch);
-        deep_lanes |= bits<width>(is_deep) << first;
+        handed.deep_lanes |= bits<width>(is_deep) << first;
 
-        typename Register<width>::Floats kappa;
-        __builtin_memcpy(&kappa, record.compression + first, sizeof kappa);
-        const CarriedRecords<width> carries{
-            {keeps ? impulse.x : none, keeps ? impulse.y : none, keeps ? impulse.z : none},
-            __builtin_convertvector(kappa, Numbers<width>), touch};
+        const CarriedRecords<width> carries{impulse * share, handed_on<N>(kappa, u_n, law), touch};
         double* records[width];
         for (int lane = 0; lane < width; ++lane)
             records[lane] =
                 contact.a[first + lane] < 0 ? nullptr : carried + std::size_t{4} * record.slot[first + lane];
         carries.scatter(records);
     }
-    deep_lanes &= record.in_problem;
-    return worst;
+    handed.deep_lanes &= record.in_problem;
+    return handed;
 }
 
 template <int width> constexpr TouchKernel touches()

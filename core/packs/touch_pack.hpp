@@ -12,10 +12,7 @@ struct StepConstants {
     LawOfStep law;
     double reach;           ///< of open contacts [m]
     double horizon;         ///< how far ahead a gap is looked at [s]
-    double touching;        ///< overlap of spheres that touch [m]
     double inverse_inertia; ///< 5/2; 0 where spheres do not turn
-    bool restitution;       ///< there is some
-    std::uint8_t jam_steps; ///< a touch record above this is that of a jammed contact
     double cell_length[3];  ///< of periodic axes [m], else infinite
     bool is_periodic;
 };
@@ -25,24 +22,24 @@ struct StepConstants {
 /// normal, arm_scale, friction and inverse_mass_sum, and the rest is made.
 struct alignas(64) TouchPack {
     double gap[pack_size];
-    double u_n[pack_size];       ///< of v⁽⁰⁾ [m/s]
-    double u_n_ahead[pack_size]; ///< of v⁽¹⁾ [m/s]
-    double closes[pack_size];    ///< when the gap does so, with v⁽¹⁾ [s]; used where there is restitution
-    double u_n_before[pack_size]; ///< of v⁽⁰⁾ against the wall's velocity then: 0 where a sphere goes with it [m/s]
-    double u_n_turned[pack_size];   ///< what the turn of the normal since the step before has added to u_n [m/s]
-    double restitution[pack_size];  ///< e
-    double stiffness[pack_size];    ///< k [N/m]
-    double carried[3][pack_size];   ///< impulse of the step before [N s] …
-    double compression[pack_size];  ///< … its κ, and then that of this step [m]
-    std::int64_t loaded[pack_size]; ///< in the step before: −1 for yes, 0 for no, as in all below
-    std::int64_t jammed[pack_size];
+    double diameter[pack_size];       ///< of the smaller sphere [m]
+    double reduced_radius[pack_size]; ///< r_a r_b/(r_a + r_b); at a wall r_a [m]
+    double u_n[pack_size];            ///< of v⁽⁰⁾ [m/s] …
+    double u_n_before[pack_size];     ///< … against the velocity of the wall in the step before [m/s]
+    double closes[pack_size];         ///< when the gap does so, with v⁽¹⁾ [s]
+    double restitution[pack_size];    ///< e
+    double stiffness[pack_size];      ///< k [N/m]
+    double carried[3][pack_size];     ///< impulse of the step before [N s] …
+    double compression[pack_size];    ///< … its κ, and then that of this step [m]
+    std::int64_t struck[pack_size];   ///< … it was an impact: −1 for yes, 0 for no
+    std::int64_t pushed[pack_size];   ///< … it had a gap: −1 for yes, 0 for no
+    std::int64_t jammed[pack_size];   ///< … it had jammed
 
-    std::int64_t impact[pack_size]; ///< made: its kind …
-    std::int64_t open[pack_size];
-    std::int64_t carries[pack_size];    ///< … it has an impulse from the step before
-    std::int64_t waits[pack_size];      ///< … it is left out of the problem where one of its spheres has an impact
-    std::int64_t in_problem[pack_size]; ///< … it is a contact of this step
-    double stored_energy[pack_size];    ///< in its spring [J]
+    std::int64_t kind[pack_size];      ///< made: ContactKind …
+    double spring[pack_size];          ///< … Σ_n of its spring [1/kg]
+    double impact_size[pack_size];     ///< … of an impact [N s], else 0
+    double stored_energy[pack_size];   ///< … in its spring [J] …
+    double push_out_energy[pack_size]; ///< … of which pushing out has put in so much [J]
 };
 
 /// What a sphere can touch in this step meets this ball.
@@ -65,14 +62,15 @@ struct SphereNumbers {
 struct alignas(64) TouchSums {
     double overlap[pack_size] = {};           ///< of those that overlap, in the problem or not [m] …
     double worst_overlap[pack_size] = {};     ///< … and the largest [m]
-    double stored_energy[pack_size] = {};     ///< in springs [J]
+    double stored_energy[pack_size] = {};     ///< in springs [J] …
+    double push_out_energy[pack_size] = {};   ///< … of which pushing out has put in so much [J]
     std::int64_t overlapping[pack_size] = {}; ///< how many overlap
 };
 
-/// Lanes of a pack, as bits, that make marks on their spheres.
-struct TouchMarks {
-    unsigned impact = 0;  ///< they have an impact
-    unsigned carries = 0; ///< they have an impulse from the step before
+/// The impacts of a pack.
+struct PackImpacts {
+    unsigned lanes = 0;     ///< as bits
+    double size[pack_size]; ///< [N s]
 };
 
 } // namespace talus

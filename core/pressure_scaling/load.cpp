@@ -22,7 +22,8 @@ template <bool wall, class R> void measure_power(Load& load, const WholeContact&
     const auto& [c, terms, rolling, at_wall] = own;
     const Vec3 u = contact_velocity<wall, R>(own, motion);
     const double normal_impulse = c.impulse.dot(c.normal);
-    load.power = normal_impulse * (u.dot(c.normal) - c.target + terms.compliance * normal_impulse);
+    const double asked = std::min(c.target - terms.compliance * normal_impulse, terms.parting);
+    load.power = normal_impulse * (u.dot(c.normal) - asked);
     load.unsliding = load.power;
     if constexpr (R::friction) {
         const Vec3 tangent = c.impulse - normal_impulse * c.normal;

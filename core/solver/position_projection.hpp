@@ -11,9 +11,10 @@ namespace talus
 
 /// The position half of `projected`: one nonlinear Gauss–Seidel pass over the contacts, in which each overlapping pair
 /// is moved apart by a share of its present overlap, in inverse proportion to the masses. Velocities do not change, so
-/// overlap never becomes energy. A piston gives way along its guide, after its release.
+/// overlap never becomes energy of motion. A piston gives way along its guide, after its release.
 /// @param walls as they stood when the step began
-void project_positions(const ContactNetwork& network, State& state, const Model& model,
+/// @return by what spheres and pistons were lifted [J]
+double project_positions(const ContactNetwork& network, State& state, const Model& model,
     const std::vector<PlacedWall>& walls, double share);
 
 /// In sub-steps walls have the last word: what lies deeper in one than a quarter of the smallest

@@ -81,6 +81,8 @@ void add_contact(Problem& problem, const TileContacts& contacts, std::size_t k, 
     target[0] += contacts.contact(k).target;
     problem.add_constraint({.law = Law::contact,
                                .friction = terms.friction,
+                               .headroom = terms.parting - contacts.contact(k).target,
+                               .compliance = terms.compliance,
                                .rolling_reach = contacts.has_rolling() ? contacts.rolling(k).reach : 0.0},
         bodies, compliance, target);
 }

@@ -57,7 +57,7 @@ private:
         const Contact& c = own.contact;
         const double way = h_ * contact_velocity<wall, R>(own, state_.motion.data()).dot(c.normal);
         const double kappa = geometry.compression;
-        const auto held_at = [&](double at) { return spring_energy(at, own.terms.compliance, h_); };
+        const auto held_at = [&](double at) { return 2.0 * upsilon / (own.terms.compliance * h_ * h_) * at * at; };
         return std::max(0.0, held_at(kappa) - held_at(std::max(0.0, kappa - way)));
     }
 };

@@ -4,6 +4,7 @@
 #include "core/base/disjoint_sets.hpp"
 #include "core/contacts/loads.hpp"
 
+#include <algorithm>
 #include <iterator>
 #include <map>
 #include <set>
@@ -13,11 +14,26 @@ namespace talus
 namespace
 {
 
-/// Loaded contacts of this overlap join bodies to a group, in smallest diameters: far more than they have at rest.
-constexpr double joining_overlap = 0.1 * pressed_overlap;
+/// Contacts of this overlap join bodies to a group, in smallest diameters: far more than they have at rest.
+constexpr double joining_overlap = 1e-3;
 
 /// An overlap with a wall that has just appeared which tells that it stands inside a sphere, in smallest diameters.
 constexpr double inside = 0.05;
+
+template <class Use> void for_each_sphere_contact(const ContactNetwork& network, Use&& use)
+{
+    for (const TileContacts& contacts : network.contacts.spheres)
+        for (const std::size_t k : contacts.indices()) use(contacts.contact(k), contacts.geometry(k));
+}
+
+template <class Use> void for_each_wall_contact(const ContactNetwork& network, Use&& use)
+{
+    const auto use_all = [&](const TileContacts& contacts) {
+        for (const std::size_t k : contacts.indices()) use(contacts.contact(k), contacts.geometry(k));
+    };
+    for (const TileContacts& contacts : network.contacts.walls) use_all(contacts);
+    use_all(network.contacts.pistons);
+}
 
 /// What is known of a group.
 struct Press {
@@ -34,7 +50,7 @@ std::vector<Incident> find_presses(const ContactNetwork& network, const State& s
 {
     const auto is_deep = [&](const ContactGeometry& g) { return -g.gap > joining_overlap * model.min_diameter; };
     DisjointSets groups(state.count());
-    for_each_loaded_sphere_contact(network, [&](const Contact& c, const ContactGeometry& g) {
+    for_each_sphere_contact(network, [&](const Contact& c, const ContactGeometry& g) {
         if (is_deep(g)) groups.join(static_cast<std::size_t>(c.a), static_cast<std::size_t>(c.b));
     });
 
@@ -50,16 +66,18 @@ std::vector<Incident> find_presses(const ContactNetwork& network, const State& s
         }
         return press;
     };
-    for_each_loaded_sphere_contact(network, [&](const Contact& c, const ContactGeometry& g) {
+    for_each_sphere_contact(network, [&](const Contact& c, const ContactGeometry& g) {
         if (is_deep(g)) add(c, g).spheres.insert(state.id[c.b]);
     });
-    for_each_loaded_wall_contact(network, [&](const Contact& c, const ContactGeometry& g) {
+    for_each_wall_contact(network, [&](const Contact& c, const ContactGeometry& g) {
         if (is_deep(g)) add(c, g).walls.insert(c.b);
     });
 
     std::vector<Incident> incidents;
     for (const auto& [group, press] : presses) {
-        if (!press.is_new || press.is_known) continue;
+        const bool is_driven =
+            std::ranges::any_of(press.walls, [&](std::int32_t wall) { return !model.walls[wall].motion.empty(); });
+        if (!press.is_new || press.is_known || !is_driven) continue;
         incidents.push_back({.kind = Incident::Kind::pressed,
             .id = state.id[press.sphere],
             .position = state.position[press.sphere],

@@ -31,8 +31,8 @@ struct Incident {
     bool is_harmless() const { return kind == Kind::appeared_inside; }
 };
 
-/// An incident for each group of bodies that loaded contacts with a tenth of pressed_overlap join together, where a
-/// contact came to be jammed in this step, and none of the group was before.
+/// An incident for each group of bodies that contacts join together which overlap by a thousandth of the smallest
+/// diameter, where a wall is that moves as told, a contact came to be jammed in this step, and none was before.
 std::vector<Incident> find_presses(const ContactNetwork& network, const State& state, const Model& model);
 
 /// An incident for each wall that has just appeared and overlaps spheres by more than 0.05 of the smallest diameter.

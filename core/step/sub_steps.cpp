@@ -20,8 +20,6 @@ constexpr double greatest_gain = 10.0;
 
 constexpr int most_sub_steps = 1000; ///< 250 d in a step: further moves are beyond any sense
 
-constexpr double shallow_share = 0.01; ///< of a diameter: what beds at rest overlap by
-
 /// The speed to which walls may add up [m/s].
 double fastest_wall(const State& state, const ContactNetwork& network, const Model& model)
 {
@@ -58,7 +56,7 @@ StepReport make_sub_steps(int count, double wall_speed, State& state, ContactNet
     std::optional<StepReport> whole;
     int made = 0;
     while (made < count) {
-        const StepLength step{model.time_step, count, shallow_share * model.min_diameter};
+        const StepLength step{model.time_step, count};
         const double too_fast = longest_move * model.min_diameter / step.h() - wall_speed;
         const double fastest = 2 * count <= most_sub_steps ? too_fast : infinity;
         auto report = advance_once(step, fastest, state, network, model, observer);

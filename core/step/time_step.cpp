@@ -3,6 +3,7 @@
 
 #include "core/candidates/candidate_search.hpp"
 #include "core/candidates/curve_order.hpp"
+#include "core/contacts/beside_impacts.hpp"
 #include "core/packs/law.hpp"
 #include "core/solver/flight.hpp"
 #include "core/solver/piston_group.hpp"
@@ -20,6 +21,8 @@ namespace
 
 constexpr std::int64_t audit_interval = 16;         ///< steps; gains of contacts are looked for in one of so many
 constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
+constexpr double usual_ratio = 10.0;                ///< of masses in an impact on what bears
+constexpr double most_ratio = 300.0;                ///< … up to which an impact is solved further
 constexpr std::size_t few_spheres = 1000;           ///< that one thread takes faster than several
 
 /// Brings the spheres into the order of a space-filling curve now and then, for the sake of the cache.
@@ -123,6 +126,17 @@ double fastest_of(const State& state, const std::vector<Flight>& flights, double
     return fastest;
 }
 
+/// Where a sphere that bears on others is struck by one of R > 10 times its mass, sweeps that stop at the usual ε leave
+/// most of the impact undone: such a step converges further, and is cheaper in the end than the bounces of many.
+SolverSettings solver_for(const PreparedStep& prepared, SolverSettings solver)
+{
+    const double ratio = std::min(prepared.impact_ratio, most_ratio);
+    if (ratio <= usual_ratio) return solver;
+    solver.tolerance = std::min(solver.tolerance, 0.1 / ratio);
+    solver.max_sweeps = std::max(solver.max_sweeps, static_cast<int>(3.0 * ratio));
+    return solver;
+}
+
 } // namespace
 
 void SearchReport::then(const SearchReport& next)
@@ -137,7 +151,10 @@ void StepReport::then(StepReport next)
     contacts.then(next.contacts);
     solve.then(next.solve);
     scaling.then(next.scaling);
+    const double stored_energy = next.outcome.stored_energy;
     outcome += next.outcome;
+    outcome.stored_energy = stored_energy;
+    lifted_energy += next.lifted_energy;
     bodies.then(std::move(next.bodies));
     for (std::size_t w = 0; w < wall_loads.size(); ++w) wall_loads[w] += next.wall_loads[w];
 }
@@ -151,14 +168,17 @@ PreparedStep prepare_step(
     if (observer) observer(Phase::search);
     prepared.impulse_scale = scale_impulses(state, network, step.h());
     renumber_along_curve(state, network, model);
-    prepared.walls = place_walls(model, state, step.h(), network.carried.step_before);
+    prepared.walls = place_walls(model, state, step.h());
     prepared.search.searched = update_candidates(network.list, network.carried, state, model, step.h(), prepared.walls);
     prepared.search.candidates = network.list.size();
 
     // Which do, under which law, and with what impulse to begin with?
     if (observer) observer(Phase::assembly);
     prepared.contacts = assemble_contacts(network, state, model, step, prepared.walls);
-    if (prepared.contacts.impacts > 0) prepared.flights = place_impacts(network, state, model, step.h());
+    if (prepared.contacts.impacts > 0) {
+        prepared.impact_ratio = stand_beside_impacts(network, state, model, law_of_step(model, step));
+        prepared.flights = find_flights(network, state, model, step.h());
+    }
     return prepared;
 }
 
@@ -198,7 +218,8 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     }
 
     // The contact impulses: every contact in turn until all laws hold.
-    report.solve = solve_contacts(network, pistons, state.motion, model.physics, model.solver, warm_size, sweeps);
+    report.solve = solve_contacts(
+        network, pistons, state.motion, model.physics, solver_for(prepared, model.solver), warm_size, sweeps);
     pistons.store(network, state);
     if (fastest_of(state, prepared.flights, h, fastest) > fastest) {
         network.before.put_back(state);
@@ -217,7 +238,7 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     move_flights(prepared.flights, state);
     const double load_work = move_pistons(state, model.pistons, h);
     if (model.solver.stabilisation == Stabilisation::projected)
-        project_positions(network, state, model, prepared.walls, projected_share);
+        report.lifted_energy = project_positions(network, state, model, prepared.walls, projected_share);
     if (step.is_split()) hold_at_walls(network, state, model, prepared.walls);
     wrap_positions(state, model.periodicity);
     state.time = step.is_split() ? state.time + h : static_cast<double>(++state.steps) * h;
@@ -225,7 +246,7 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     // What there is to tell, and what the next step begins with.
     enter(Phase::report);
     mark_leaving(state, model.outlets);
-    report.outcome = carry_impulses(network, state, model, h);
+    report.outcome = carry_impulses(network, state, model, step);
     report.bodies = survey_state(state, model, step);
     report.bodies.load_work = load_work;
     survey_own_forces(report.bodies, state, h);

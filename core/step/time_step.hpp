@@ -44,6 +44,7 @@ struct StepReport {
     ContactOutcome outcome;
     StateSurvey bodies;
     std::vector<WallLoad> wall_loads; ///< by wall; empty unless a sensor asks for them
+    double lifted_energy = 0.0;       ///< potential energy that the position pass of `projected` added [J]
     double contact_gain = 0.0; ///< energy that single contacts gained; every 16th step is looked at for all 16 [J]
 
     void then(StepReport next); ///< the next sub-step
@@ -68,6 +69,7 @@ struct PreparedStep {
     SearchReport search;
     ContactSurvey contacts;
     std::vector<Flight> flights;
+    double impact_ratio = 0.0;  ///< of stand_beside_impacts
     double impulse_scale = 1.0; ///< of the carried impulses, where the step before had another length
 };
 

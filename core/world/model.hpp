@@ -30,9 +30,8 @@ struct SolverSettings {
 /// How long a step is: the model's time step, or one of the equal sub-steps into which it is split where something is
 /// too fast for it.
 struct StepLength {
-    double whole = 0.0;           ///< the model's time step [s]
-    int parts = 1;                ///< sub-steps
-    double shallow_overlap = 0.0; ///< where it is split: up to this κ, contacts are as stiff as in the whole step [m]
+    double whole = 0.0; ///< the model's time step [s]
+    int parts = 1;      ///< sub-steps
 
     double h() const { return whole / parts; } ///< of this step or sub-step [s]
     bool is_split() const { return parts > 1; }

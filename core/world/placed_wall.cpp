@@ -26,7 +26,7 @@ Vec3 way_back(const Shape& shape, const Periodicity& periodicity, const Pose& po
 
 } // namespace
 
-PlacedWall::PlacedWall(const Wall& wall, const Periodicity& periodicity, double time, double step, double step_before)
+PlacedWall::PlacedWall(const Wall& wall, const Periodicity& periodicity, double time, double step)
     : wall_(&wall), shape_patches_(talus::patch_count(wall.shape)), images_(images_of(wall.shape, periodicity)),
       stands_(wall.stands_at(time))
 {
@@ -41,7 +41,8 @@ PlacedWall::PlacedWall(const Wall& wall, const Periodicity& periodicity, double 
     back_ = pose_.inverse();
     if (step <= 0.0) return;
     twist_ = twist_between(pose_, first_image_at(time + step), step);
-    twist_before_ = step_before > 0.0 ? twist_between(first_image_at(time - step_before), pose_, step_before) : twist_;
+    const bool has_begun = time > 0.5 * step; // a run that begins goes on as it began
+    twist_before_ = has_begun ? twist_between(first_image_at(time - step), pose_, step) : twist_;
 }
 
 PlacedWall::PlacedWall(
@@ -104,13 +105,13 @@ double PlacedWall::way_since(const Pose& before, const Box& box) const
     return longest;
 }
 
-std::vector<PlacedWall> place_walls(const Model& model, const State& state, double step, double step_before)
+std::vector<PlacedWall> place_walls(const Model& model, const State& state, double step)
 {
     std::vector<PlacedWall> result;
     result.reserve(model.walls.size());
     for (const auto& wall : model.walls) {
         if (!wall.is_piston()) {
-            result.emplace_back(wall, model.periodicity, state.time, step, step_before);
+            result.emplace_back(wall, model.periodicity, state.time, step);
             continue;
         }
         const Piston& piston = model.pistons[wall.piston];

@@ -19,9 +19,7 @@ class PlacedWall
 {
 public:
     /// @param step h [s] over which `velocity` is the mean; 0: only the place is wanted
-    /// @param step_before the same for `velocity_before`, which is `velocity` where there was none, 0
-    PlacedWall(
-        const Wall& wall, const Periodicity& periodicity, double time, double step = 0.0, double step_before = 0.0);
+    PlacedWall(const Wall& wall, const Periodicity& periodicity, double time, double step = 0.0);
 
     /// The wall of a piston, which is where forces have brought it.
     /// @param gain what the step would add to its velocity if nothing touched it [m/s]
@@ -48,7 +46,7 @@ public:
     /// The velocity of the wall's material at a place near this patch [m/s]: the mean over the step that begins now; of
     /// a piston, that with which it begins, and the step may add `gain`.
     Vec3 velocity(std::size_t patch, const Vec3& x) const { return twist_.at(x - image_of(patch)); }
-    /// The wall's mean velocity over the step before, with which v⁽⁰⁾ belongs together [m/s].
+    /// The same over as long a time before [m/s].
     Vec3 velocity_before(std::size_t patch, const Vec3& x) const { return twist_before_.at(x - image_of(patch)); }
     const Vec3& spin() const { return twist_.spin; } ///< as `velocity` [rad/s]
     const Vec3& gain() const { return gain_; }       ///< zero but for pistons [m/s]
@@ -74,9 +72,7 @@ private:
 
 /// All walls as they stand.
 /// @param step h [s] over which velocities are means; 0: only the places are wanted
-/// @param step_before the length of the step before [s]; 0: there was none
-std::vector<PlacedWall> place_walls(
-    const Model& model, const State& state, double step = 0.0, double step_before = 0.0);
+std::vector<PlacedWall> place_walls(const Model& model, const State& state, double step = 0.0);
 
 /// All walls at the beginning of a run: pistons where the scene puts them.
 std::vector<PlacedWall> place_walls_at_start(const Model& model);

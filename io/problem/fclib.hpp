@@ -68,8 +68,9 @@ struct FclibProblem {
     Eigen::Index contact_rows() const { return rows_per_contact * contacts(); } ///< D N
 };
 
-/// Of spheres: id, radius [m], position [m], three for each. Of contacts: id_a, id_b (at a wall −1), wall (−1 between
-/// spheres), gap [m], kind (0 resting, 1 open, 2 impact), point [m], three for each.
+/// Of spheres: id, radius [m], position [m], three for each. Of contacts, but those that stop a spring: id_a, id_b (at
+/// a wall −1), wall (−1 between spheres), gap [m], kind (0 resting, 1 open, 2 impact, 3 yielding, 4 bearing, 5
+/// deferred), point [m], three for each.
 inline constexpr std::array origin_lists = {"bodies/id", "bodies/radius", "bodies/position", "contacts/id_a",
     "contacts/id_b", "contacts/wall", "contacts/gap", "contacts/kind", "contacts/point"};
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace talus
@@ -88,14 +89,14 @@ Eigen::SparseMatrix<double> matrix_of(const Entries& entries, Index rows, Index 
     return matrix;
 }
 
-void set_friction(FclibProblem& file, const std::vector<Constraint>& contacts)
+void set_friction(FclibProblem& file, const std::vector<Constraint>& contacts, std::size_t stops)
 {
     const auto count = static_cast<Index>(contacts.size());
     const bool rolls = !contacts.empty() && contacts.front().rolls();
     file.form = rolls ? FclibForm::global_rolling : FclibForm::global;
     file.rows_per_contact = rolls ? 5 : 3;
-    file.mu.resize(count);
-    file.mu_r.resize(rolls ? count : 0);
+    file.mu = VectorXd::Zero(count + static_cast<Index>(stops));
+    file.mu_r = VectorXd::Zero(rolls ? file.mu.size() : 0);
     for (Index k = 0; k < count; ++k) {
         file.mu[k] = contacts[static_cast<std::size_t>(k)].friction;
         if (rolls) file.mu_r[k] = contacts[static_cast<std::size_t>(k)].rolling_reach;
@@ -109,8 +110,15 @@ std::vector<Constraint> contacts_in(const multibody::Problem& problem)
     return contacts;
 }
 
-/// M with a body for each compliance, H and G.
-void set_matrices(FclibProblem& file, const multibody::Problem& problem, Index contact_rows)
+/// What a contact parts with at most, in FCLIB's words: its spring gives way by q_n − u_p at least.
+struct Stop {
+    Index body; ///< degree of freedom of the spring
+    Index row;  ///< normal row of the contact
+    double least;
+};
+
+/// M with a body for each compliance, H without stops, and G.
+std::vector<Stop> set_matrices(FclibProblem& file, const multibody::Problem& problem, Index contact_rows)
 {
     Entries M, transposed_jacobian;
     for (std::size_t b = 0; b < problem.body_count(); ++b)
@@ -120,17 +128,54 @@ void set_matrices(FclibProblem& file, const multibody::Problem& problem, Index c
             add_block(transposed_jacobian, problem.first_dof(problem.body_of_block(i)),
                 problem.constraints()[k].first_row, problem.jacobian(i).transpose());
     Index dofs = problem.dofs();
+    std::vector<Index> body_of_row(static_cast<std::size_t>(contact_rows), -1);
     for (Index row = 0; row < contact_rows; ++row) {
         const double compliance = problem.compliance()[row];
         if (compliance == 0.0) continue;
         add_block(M, dofs, dofs, Eigen::MatrixXd::Constant(1, 1, 1.0 / compliance));
         add_block(transposed_jacobian, dofs, row, Eigen::MatrixXd::Ones(1, 1));
-        ++dofs;
+        body_of_row[static_cast<std::size_t>(row)] = dofs++;
     }
     file.M = matrix_of(M, dofs, dofs);
     const auto all_rows = matrix_of(transposed_jacobian, dofs, problem.rows());
     file.H = all_rows.leftCols(contact_rows);
     file.G = all_rows.rightCols(problem.rows() - contact_rows);
+
+    std::vector<Stop> stops;
+    for (const Constraint& contact : contacts_in(problem)) {
+        const Index body = body_of_row[static_cast<std::size_t>(contact.first_row)];
+        if (body >= 0 && contact.headroom < 0.0) stops.push_back({body, contact.first_row, -contact.headroom});
+    }
+    return stops;
+}
+
+/// Their columns of H behind the others, and what they ask for.
+void add_stops(FclibProblem& file, const std::vector<Stop>& stops)
+{
+    Entries H;
+    for (Index column = 0; column < file.H.cols(); ++column)
+        for (Eigen::SparseMatrix<double>::InnerIterator entry(file.H, column); entry; ++entry)
+            H.emplace_back(entry.row(), column, entry.value());
+    const Index before = file.H.cols(), rows = file.rows_per_contact;
+    file.w.conservativeResizeLike(VectorXd::Zero(before + rows * static_cast<Index>(stops.size())));
+    for (Index k = 0; const Stop& stop : stops) {
+        H.emplace_back(stop.body, before + rows * k, 1.0);
+        file.w[before + rows * k++] = -stop.least;
+    }
+    file.H = matrix_of(H, file.H.rows(), file.w.size());
+}
+
+/// λ⁰, and what the stops add to the springs' impulses.
+VectorXd reactions_of(const FclibProblem& file, const std::vector<Stop>& stops, const multibody::Problem& problem,
+    const VectorXd& impulse)
+{
+    VectorXd r = VectorXd::Zero(file.contact_rows());
+    const Index before = r.size() - file.rows_per_contact * static_cast<Index>(stops.size());
+    r.head(before) = impulse.head(before);
+    for (Index k = 0; const Stop& stop : stops)
+        r[before + file.rows_per_contact * k++] =
+            std::max(0.0, stop.least / problem.compliance()[stop.row] - impulse[stop.row]);
+    return r;
 }
 
 } // namespace
@@ -156,17 +201,23 @@ multibody::AssembledProblem assembled(const FclibProblem& file, const std::strin
 FclibProblem to_fclib(const multibody::Problem& problem, const VectorXd& impulse)
 {
     FclibProblem file;
-    set_friction(file, contacts_in(problem));
-    const Index contact_rows = file.rows_per_contact * file.contacts();
-    set_matrices(file, problem, contact_rows);
+    const std::vector<Constraint> contacts = contacts_in(problem);
+    const bool rolls = !contacts.empty() && contacts.front().rolls();
+    const Index contact_rows = (rolls ? 5 : 3) * static_cast<Index>(contacts.size());
+    const std::vector<Stop> stops = set_matrices(file, problem, contact_rows);
+    set_friction(file, contacts, stops.size());
     file.f = VectorXd::Zero(file.M.rows());
     for (std::size_t b = 0; b < problem.body_count(); ++b)
         problem.dofs_of(b, file.f) = problem.mass(b) * problem.dofs_of(b, problem.free_velocity());
     file.w = -problem.target().head(contact_rows);
+    for (const Constraint& contact : contacts) // one that is rigid asks for the lesser of the two
+        if (problem.compliance()[contact.first_row] == 0.0)
+            file.w[contact.first_row] -= std::min(0.0, contact.headroom);
     file.b = -problem.target().tail(problem.rows() - contact_rows);
+    add_stops(file, stops);
     if (impulse.size() == 0) return file;
     FclibGuess& guess = file.guesses.emplace_back();
-    guess.r = impulse.head(contact_rows);
+    guess.r = reactions_of(file, stops, problem, impulse);
     guess.l = impulse.tail(problem.rows() - contact_rows);
     return file;
 }

@@ -24,7 +24,8 @@ multibody::AssembledProblem assembled(const FclibProblem& problem, const std::st
 /// them rigid equalities, which are the columns of G.
 ///
 /// FCLIB has no Σ. A row's compliance becomes a body of its own with one degree of freedom and the mass 1/Σ that this
-/// row alone moves: W then is S_ε.
+/// row alone moves: W then is S_ε. Nor has it u_n ≥ min(q_n − Σ_n λ_n, u_p): where u_p is less than q_n, a contact
+/// without friction, after all others, has this body give way by q_n − u_p at least, and takes what that needs.
 /// @param impulse λ⁰, stored as the first guess (r, l); empty for none
 FclibProblem to_fclib(const multibody::Problem& problem, const Eigen::VectorXd& impulse);
 

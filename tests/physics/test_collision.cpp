@@ -29,7 +29,7 @@ struct Collision {
 };
 
 /// Two spheres that approach, with spins; radii to 1 : 20, masses to 1 : 32 000, any impact parameter but the last 1 %,
-/// friction 0 to 10. With restitution they touch within the step, or have done so in the half step before it;
+/// friction 0 to 10. With restitution they touch within the step;
 /// without, they overlap by up to 10 % of the smaller radius.
 Collision random_collision(Random& random, double restitution, const SolverSettings& solver)
 {
@@ -42,7 +42,7 @@ Collision random_collision(Random& random, double restitution, const SolverSetti
     const double r1 = 0.01 * std::pow(20.0, -uniform(random));
     const double r2 = 0.01 * std::pow(20.0, -uniform(random));
     const double overlap = restitution > 0.0 ? 0.0 : 0.1 * uniform(random) * std::min(r1, r2);
-    const double instant = restitution > 0.0 ? between(random, -0.5, 1.0) * time_step : 0.0;
+    const double instant = restitution > 0.0 ? between(random, 0.0, 1.0) * time_step : 0.0;
     const Vec3 normal = random_vector(random, 1.0).normalized();
     const Vec3 position = random_vector(random, 0.1);
     Vec3 v1 = random_vector(random, 1.0);

@@ -30,8 +30,7 @@ double stiffness_for(double omega_h)
     return sphere_mass() * omega_h * omega_h / (time_step * time_step);
 }
 
-/// A sphere on a floor of this stiffness without gravity, that reaches it at speed V with this gap left. What a load
-/// presses is given back at any speed, whatever that with which other overlap is undone.
+/// A sphere on a floor of this stiffness without gravity, that reaches it at speed V with this gap left.
 World soft_impact(double omega_h, double speed, double gap)
 {
     World world = sphere_on_plane(soft(stiffness_for(omega_h)), matched_settings(), time_step, Vec3(0, 0, -speed));
@@ -39,11 +38,6 @@ World soft_impact(double omega_h, double speed, double gap)
     world.model.solver.push_out_speed = 0.1 * automatic_push_out_speed();
     world.state.position[0].z() += gap;
     return world;
-}
-
-bool has_rebounded(const World& world)
-{
-    return world.position().z() > standard_radius && world.velocity().z() > 0;
 }
 
 } // namespace
@@ -76,43 +70,20 @@ TEST_CASE("no contact of the matched law is stiffer than its sweeps can carry", 
     CHECK(standard_radius - world.position().z() == Approx(overlap).margin(1e-9 * overlap + 1e-17));
 }
 
-TEST_CASE("a resolved impact on a soft contact rebounds as its step size damps it", "[compliance][restitution]")
+TEST_CASE("an impact without restitution gives nothing back, however soft the contact", "[compliance][restitution]")
 {
-    // One sphere on a spring k with τ = 2h has e_eff ≈ 1 − π ω h. The table was computed apart, to 1e-3, from
-    // first touch at gap 0: largest overlap in V/ω, and how long the contact pushes in 1/ω, which comes in whole steps
-    // of ω h.
-    const auto [omega_h, rebound, depth, duration] =
-        GENERATE(table<double, double, double, double>({{.5, .284, .554, 3.00}, {.2, .560, .753, 3.00},
-            {.1, .739, .861, 3.00}, {.05, .857, .926, 3.05}, {.02, .940, .969, 3.12}, {.01, .969, .984, 3.13}}));
+    // It is rigid, and stops the sphere; the weight then sinks in.
+    const double omega_h = GENERATE(.5, .1, .01), share = GENERATE(0.0, 0.25, 0.9);
     const double speed = 0.1;
-    World world = soft_impact(omega_h, speed, 0.0);
-    double deepest = 0.0;
-    int pushing = 0; // steps in which the contact has an impulse
-    while (!has_rebounded(world)) {
-        world.step();
-        REQUIRE(world.state.steps < 1000);
-        deepest = std::max(deepest, standard_radius - world.position().z());
-        pushing += world.report.outcome.from_walls.impulse.z() > 0;
-    }
-    CHECK(world.velocity().z() / speed == Approx(rebound).margin(1e-3));
-    CHECK(deepest * omega_h / (speed * time_step) == Approx(depth).margin(1e-3));
-    CHECK(pushing * omega_h == Approx(duration).margin(0.5 * omega_h));
-}
-
-TEST_CASE("an open gap is closed to the point, so a soft impact starts with what the last step's gap leaves",
-    "[compliance][restitution]")
-{
-    // In the step that would pass through the surface u_n = −g/h holds instead: of V only g/h is left, and the impact
-    // that follows is that of the table above at this speed (everything is linear). Without restitution asked for, an
-    // impact loses at least what a soft one would; it asks for e to be elastic.
-    const double omega_h = 0.1;
-    const double speed = 0.1;
-    const double share = GENERATE(0.25, 0.9);
     World world = soft_impact(omega_h, speed, share * speed * time_step);
     world.step();
-    CHECK(world.velocity().z() == within(1e-10, -share * speed)); // 1e-10: round-off of a gap that is 1e-3 r
-    advance_until(world, has_rebounded, 200);
-    CHECK(world.velocity().z() == Approx(.739 * share * speed).margin(1e-3 * speed));
+    CHECK(std::abs(world.velocity().z()) < 1e-12 * speed);
+    double fastest = 0.0;
+    for (int k = 0; k < 500; ++k) {
+        world.step();
+        fastest = std::max(fastest, world.velocity().z());
+    }
+    CHECK(fastest < 0.01 * speed);
 }
 
 } // namespace talus::test

@@ -112,7 +112,7 @@ TEST_CASE("a sphere stays on a plate shaken with less than g", "[moving_walls]")
         worst = std::max(worst, std::abs(world.position().z() - standard_radius - plate));
         REQUIRE(world.contact_forces().size() == 1);
     }
-    CHECK(worst < 1e-12);
+    CHECK(worst < 1e-8 * amplitude + 2e-9); // the first step knows nothing of how the plate moved before it
 }
 
 TEST_CASE("a sphere on a plate that gets ever faster overlaps it as on one at rest with more gravity", "[moving_walls]")

@@ -21,8 +21,7 @@ Simulation simulation_with(const WallMotion& motion)
 
 PlacedWall wall_of(const Simulation& simulation)
 {
-    return place_walls(
-        simulation.model, simulation.state, simulation.model.time_step, simulation.network.carried.step_before)[0];
+    return place_walls(simulation.model, simulation.state, simulation.model.time_step)[0];
 }
 
 const Vec3 corner(0.01, 0.02, 0.03); // of the wall, somewhere
@@ -57,6 +56,7 @@ TEST_CASE("a wall that is driven anew in every step has gone what its velocities
         const Vec3 velocity(0.01 * k, 0, -0.002 * k);
         drive_wall(simulation, 0, Vec3(5, 5, 5)); // thought better of
         drive_wall(simulation, 0, velocity);
+        CHECK((wall_of(simulation).velocity(0, Vec3::Zero()) - velocity).norm() < 1e-9);
         CHECK((wall_of(simulation).velocity_before(0, Vec3::Zero()) - last).norm() < 1e-9);
         advance(simulation);
         way += simulation.model.time_step * velocity;

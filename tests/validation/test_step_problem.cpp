@@ -118,7 +118,11 @@ Census compare(const std::string& scene, double time)
     for (const int sweeps : {1, 2, 20})
         CHECK(worst_difference(swept_by_kernel(simulation, sweeps), step,
                   swept_by_blocks(step, as_run(simulation.model, sweeps))) < 1e-10);
-    if (simulation.model.pistons.empty()) // whose guides are blocks, and single rows in a file
+    // Guides of pistons are blocks, and single rows in a file; and what stops springs there is swept after all others.
+    const bool may_be_filed = simulation.model.pistons.empty() &&
+                              std::ranges::none_of(step.problem.constraints(),
+                                  [](const multibody::Constraint& contact) { return contact.headroom < 0.0; });
+    if (may_be_filed)
         CHECK(worst_difference(
                   swept_by_kernel(simulation, 20), step, swept_from_file(step, as_run(simulation.model, 20))) < 1e-10);
     return census(simulation.network);

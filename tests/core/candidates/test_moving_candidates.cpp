@@ -151,7 +151,7 @@ TEST_CASE("beads that fly across a periodic border for many cells stay listed", 
 {
     auto world = stirred_beads(0.5, 0.2, cells[2]);
     for (auto& m : world.state.motion) m.velocity += Vec3(4.0, -3.0, 0);
-    run_checked(world, 120);
+    run_checked(world, 160);
     for (const Vec3& x : world.state.position) {
         CHECK(x.x() >= 0.0);
         CHECK(x.x() < edge);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/base/vector.hpp"
+#include "core/base/region.hpp"
 #include "core/packs/law.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 using namespace talus;
 
@@ -10,107 +14,449 @@ namespace
 {
 
 constexpr double h = 1e-3;
+constexpr double elastic = 0.02;                                     // [m/s]
 constexpr double threshold = 0.03;                                   // [m/s]
 constexpr double w = 2.0;                                            // [1/kg]
+constexpr double d = 0.01;                                           // [m]
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN(); // must not be read
 
-bool impact(double gap, double u_n, double closes, bool loaded, double restitution = 0.5)
+/// A step in which matched contacts push out what overlaps with 0.05 m/s.
+LawOfStep matched(double parts = 1.0)
 {
-    return is_impact<double>(gap, u_n, closes, loaded, restitution, {.h = h, .threshold_speed = threshold});
+    return {.h = h / parts,
+        .threshold_speed = threshold,
+        .elastic_speed = elastic,
+        .push_out_speed = 0.05,
+        .parts = parts,
+        .min_diameter = d};
 }
 
-/// A contact of this kind with W = 2/kg and e = 0.4 between rigid spheres.
-ContactEvent<double> event(ContactKind kind, double gap, double u_n)
+LawOfStep rigid()
 {
-    return {kind == ContactKind::impact, kind == ContactKind::open, gap, u_n, w, 0.4, infinity};
+    return {.h = h, .threshold_speed = threshold, .rigid = true, .push_out_speed = 0.05, .min_diameter = d};
+}
+
+/// A contact with W = 2/kg and e = 0.4 between rigid spheres.
+ContactEvent<double> event(double gap, double u_n, double load = 0.0, double compression = 0.0)
+{
+    return {gap, d, 0.25 * d, u_n, u_n, nowhere, w, 0.4, infinity, load, compression, false, false};
+}
+
+/// Σ_n of that contact.
+constexpr double sigma = 0.2 / 2 * w;
+
+bool impact(double gap, double u_n, double closes, double load = 0.0, double restitution = 0.4)
+{
+    ContactEvent<double> at = event(gap, u_n, load);
+    at.closes = closes;
+    at.restitution = restitution;
+    return is_impact<double>(at, matched());
+}
+
+NormalLaw<double> law_of(const ContactEvent<double>& at, const LawOfStep& step, bool is_impact = false)
+{
+    return normal_law<double>(at, is_impact, step);
+}
+
+/// The u_n that a contact asks for which bears nothing.
+double most_asked(const ContactEvent<double>& at, const LawOfStep& step)
+{
+    const auto law = law_of(at, step);
+    return std::min(law.target, law.parting);
+}
+
+double closing(const Vec3& across, const Vec3& velocity, double radii)
+{
+    return closing_time<double>(-across.dot(velocity), velocity.squaredNorm(), across.squaredNorm() - radii * radii,
+        [](double square) { return std::sqrt(square); });
+}
+
+/// Numbers at random, evenly between two.
+struct Between {
+    Random random;
+    double operator()(double least, double most) { return least + (most - least) * uniform(random); }
+};
+
+} // namespace
+
+TEST_CASE("spheres touch when the distance of their free paths is that of their radii", "[law]")
+{
+    CHECK(closing(Vec3(3, 0, 0), Vec3(-2, 0, 0), 2.0) == Approx(0.5));
+    CHECK(closing(Vec3(2, 0, 0), Vec3(-2, 0, 0), 2.0) == 0.0);
+    CHECK(closing(Vec3(1, 0, 0), Vec3(-2, 0, 0), 2.0) == Approx(-0.5)); // they have, half a second ago
+    CHECK(closing(Vec3(3, 0, 0), Vec3(2, 0, 0), 2.0) == infinity);      // they part
+    CHECK(closing(Vec3(3, 0, 0), Vec3::Zero(), 2.0) == infinity);       // at rest
+    CHECK(closing(Vec3(3, 0, 2.001), Vec3(-2, 0, 0), 2.0) == infinity); // they pass by
+    const Vec3 across(3, 1, -0.5), velocity(-2, 0.1, 0.2);
+    const double closes = closing(across, velocity, 2.0);
+    CHECK((across + closes * velocity).norm() == Approx(2.0));
+    CHECK((across + 0.5 * closes * velocity).norm() > 2.0); // for the first time
+}
+
+TEST_CASE("an impact is fast, closes in this step, and has no load to count", "[law][stabilisation]")
+{
+    CHECK(impact(-1e-5, -1.0, nowhere));
+    CHECK(impact(-1e-5, -1.0, nowhere, 0.0, 0.0)); // without restitution too: it stops
+    CHECK_FALSE(impact(-1e-5, -0.99 * threshold, nowhere));
+    CHECK(impact(-1e-5, -1.01 * threshold, nowhere));
+    CHECK(impact(1e-4, -1.0, 1e-4));           // an open gap that closes in this step
+    CHECK_FALSE(impact(1e-3, -1.0, h));        // in the next one
+    CHECK_FALSE(impact(1e-4, -1.0, infinity)); // or never
+    CHECK_FALSE(impact(1e-4, 0.1, infinity));
+    CHECK(impact(1e-10 * d, -1.0, infinity)); // touching, but for rounding
+    // By itself it would have (1 + e) |u_n| / W; a ten-thousandth of that is a load.
+    const double size = 1.4 * 1.0 / w;
+    CHECK(impact_size<double>(event(-1e-5, -1.0)) == Approx(size));
+    CHECK(impact_size<double>(event(-1e-5, 1.0)) == 0.0);
+    CHECK(impact(-1e-5, -1.0, nowhere, 0.99e-4 * size));
+    CHECK_FALSE(impact(-1e-5, -1.0, nowhere, 1.01e-4 * size));
+    // What impacts have not stopped by 0.4 d of overlap is none any more, but yields.
+    CHECK(impact(-0.399 * d, -1.0, nowhere));
+    CHECK_FALSE(impact(-0.401 * d, -1.0, nowhere));
+}
+
+TEST_CASE(
+    "what has been an impact and would not rebound again rests, unless it has come apart since", "[law][stabilisation]")
+{
+    const auto again = [](double gap) {
+        ContactEvent<double> at = event(gap, -2.0 * threshold); // it would rebound with 0.8 of the slowest impact
+        at.closes = 0.5 * h;
+        at.struck = true;
+        return is_impact<double>(at, matched());
+    };
+    CHECK_FALSE(again(-1e-5));
+    CHECK_FALSE(again(0.0));
+    CHECK(again(1e-5));
+}
+
+TEST_CASE("an impact rebounds with e, however deep it is, and leaves no spring", "[law][stabilisation]")
+{
+    for (const LawOfStep& step : {matched(), rigid()})
+        for (const double gap : {1e-4, 0.0, -1e-5, -0.1 * d}) {
+            const auto law = law_of(event(gap, -1.0, 0.0, 1e-5), step, true);
+            CHECK(law.target == Approx(0.4));
+            CHECK(law.compliance == 0.0);
+            CHECK(law.parting == infinity);
+            CHECK(law.compression == -infinity);
+        }
+}
+
+TEST_CASE("an open gap may close in one step, and takes no energy in", "[law][stabilisation]")
+{
+    for (const LawOfStep& step : {matched(), rigid()}) {
+        const auto law = law_of(event(1e-4, -1.0), step);
+        CHECK(law.target == Approx(-0.1));                         // u_n ≥ −g/h
+        CHECK(law.compliance == Approx(step.rigid ? 0.0 : sigma)); // it is to be a spring
+        CHECK(law.parting == infinity);
+        CHECK(law.compression == -infinity);
+        // Of one that parts it asks for no more than that it comes back as fast as it went.
+        CHECK(law_of(event(1e-4, 0.5), step).target == Approx(-0.5));
+    }
+}
+
+TEST_CASE("a spring asks for 4Υ κ/h, whatever its velocity is, and is as soft as sweeps or the material ask",
+    "[law][stabilisation]")
+{
+    for (const double u_n : {-0.09, 0.0, 0.2}) {
+        const auto law = law_of(event(-1e-5, u_n, 0.1, 1e-5), matched());
+        CHECK(law.compression == Approx(1e-5));
+        CHECK(law.target == Approx(4.0 / 9.0 * 1e-5 / h));
+        CHECK(law.compliance == Approx(sigma));
+        // It parts with e of what it might at most, or as fast as it closed.
+        CHECK(law.parting == Approx(std::max(elastic / 3 + 0.4 * 1e-5 / h, -u_n)));
+    }
+    auto soft = event(-1e-5, 0.0, 0.1, 1e-5);
+    soft.stiffness = 100.0;
+    CHECK(law_of(soft, matched()).compliance == Approx(4.0 / 9.0 / (100.0 * h * h)));
+    soft.stiffness = 1e12;
+    CHECK(law_of(soft, matched()).compliance == Approx(sigma));
+    LawOfStep more_sweeps = matched();
+    more_sweeps.min_sweeps = 8.0;
+    CHECK(law_of(soft, more_sweeps).compliance == Approx(sigma / 4));
+}
+
+TEST_CASE("of an overlap, compression is what a load has pressed and what is pushed out since",
+    "[law][stabilisation][compression]")
+{
+    const double gained = 0.05 * h;
+    const auto compression = [&](double gap, double before) {
+        return law_of(event(gap, -0.01, 0.1, before), matched()).compression;
+    };
+    CHECK(compression(-1e-4, 0.0) == Approx(gained));
+    CHECK(compression(-1e-4, 2e-5) == Approx(2e-5 + gained));
+    CHECK(compression(-1e-5, 1e-3) == 1e-5);                 // never more than the overlap
+    CHECK(compression(-1e-4, 0.9e-9 * d) == Approx(gained)); // no more than rounding: none
+    CHECK(compression(1e-5, 1e-3) == -infinity);             // apart
+    CHECK(law_of(event(-1e-5, -0.01, 0.1, 1e-5), rigid()).compression == -infinity);
+}
+
+TEST_CASE("an overlap without a spring becomes one only where it does not part", "[law][stabilisation][compression]")
+{
+    CHECK(law_of(event(-1e-5, -0.01), matched()).compression == 1e-5);
+    CHECK(law_of(event(-1e-5, 0.0), matched()).compression == 1e-5);
+    CHECK(law_of(event(-1e-5, 0.01), matched()).compression == -infinity);
+    CHECK(law_of(event(-1e-5, 0.01, 0.1, 1e-5), matched()).compression == 1e-5); // it is one
+}
+
+TEST_CASE("a rigid contact stops what comes, and does not hold what leaves", "[law][stabilisation]")
+{
+    const auto law = law_of(event(-1e-5, -0.09, 0.0, 1e-5), rigid());
+    CHECK(law.target == 0.0);
+    CHECK(law.parting == infinity);
+    CHECK(most_asked(event(-1e-5, 0.5), rigid()) == -0.5); // and so takes no energy in
+    // But for what sweeps leave undone of a load, up to p.
+    CHECK(most_asked(event(-1e-5, 0.5, 0.05), rigid()) == Approx(2 * undone_share * w * 0.05 - 0.5));
+    CHECK(most_asked(event(-1e-5, 0.5, 50.0), rigid()) == Approx(2 * 0.05 - 0.5));
+    CHECK(most_asked(event(-1e-5, 0.01, 0.5), rigid()) == 0.0);
+}
+
+TEST_CASE("a rigid contact is so where it is shallow", "[law][stabilisation][press]")
+{
+    const auto compliance = [](double overlap) { return law_of(event(-overlap * d, -0.1), rigid()).compliance / w; };
+    CHECK(compliance(0.0) == 0.0);
+    CHECK(compliance(1e-4) < 1e-9);
+    CHECK(compliance(0.5 * rigid_yield_overlap) == Approx(rigid_softness / 16));
+    CHECK(compliance(rigid_yield_overlap) == Approx(rigid_softness));
+    CHECK(compliance(0.2) == Approx(rigid_softness));
+}
+
+TEST_CASE("against a wall that gets faster a contact is passive as its sphere was, and an impact as it is",
+    "[law][stabilisation][walls]")
+{
+    // The wall gains 0.1 m/s towards a sphere that has gone with it: that is no velocity which it may give back.
+    const auto of = [](double gap, double u_n_before, const LawOfStep& step, bool is_impact = false) {
+        auto at = event(gap, u_n_before - 0.1);
+        at.u_n_before = u_n_before;
+        return law_of(at, step, is_impact);
+    };
+    CHECK(of(-1e-5, 0.0, rigid()).target == 0.0);
+    CHECK(std::min(of(-1e-5, 0.2, rigid()).target, of(-1e-5, 0.2, rigid()).parting) == -0.2);
+    CHECK(of(1e-5, 0.2, matched()).target == -0.2);
+    CHECK(of(-1e-5, 0.0, matched()).compression == 1e-5);
+    CHECK(of(-1e-5, 0.05, matched()).compression == -infinity);
+    CHECK(of(-1e-5, -0.4, matched(), true).target == Approx(0.4 * 0.5));
+}
+
+namespace
+{
+
+/// Where a contact that closes so fast begins to yield, in reduced radii: sought.
+double yields_at(double u_n, double reduced_radius = 0.25 * d)
+{
+    double shallow = 0.0, deep = 0.5;
+    for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (shallow + deep);
+        auto at = event(-middle * reduced_radius, u_n);
+        at.reduced_radius = reduced_radius;
+        (law_of(at, matched()).yields ? deep : shallow) = middle;
+    }
+    return deep;
 }
 
 } // namespace
 
-TEST_CASE("an impact is fast, new, and only where there is restitution", "[stabilisation]")
+TEST_CASE("a deep contact yields: it bears as a spring that all of its overlap has pressed, and parts with p at most",
+    "[law][stabilisation][press]")
 {
-    CHECK(impact(-1e-5, -1.0, nowhere, false));
-    CHECK_FALSE(impact(-1e-5, -1.0, nowhere, true));              // loaded in the step before
-    CHECK_FALSE(impact(-1e-5, -0.5 * threshold, nowhere, false)); // too slow
-    CHECK_FALSE(impact(-1e-5, -1.0, nowhere, false, 0.0));        // no restitution
-    CHECK(impact(1e-4, -1.0, 1e-4, false));                       // an open gap that closes in this step
-    CHECK(impact(1e-4, -1.0, 1e-4, true));
-    CHECK_FALSE(impact(1e-2, -1.0, 1e-2, false));     // one that does not
-    CHECK_FALSE(impact(1e-4, -1.0, infinity, false)); // or passes by
-    CHECK_FALSE(impact(1e-4, 0.1, infinity, false));
+    LawOfStep step = matched();
+    CHECK(yields_at(-0.9 * step.elastic_speed) == Approx(yield_overlap));
+    CHECK(yields_at(-1.1 * step.elastic_speed) == Approx(fast_yield_overlap));
+    CHECK(yields_at(0.0, 0.5 * d) == Approx(yield_overlap)); // at a wall
+
+    const double overlap = (yield_overlap + 1e-9) * 0.25 * d;
+    const auto barely = law_of(event(-overlap, -0.1, 1.0, d), step);
+    CHECK(barely.compliance == sigma);
+    CHECK(barely.target == Approx(4.0 / 9.0 * overlap / h));
+    CHECK(barely.compression == -infinity);
+    CHECK(barely.parting == step.push_out_speed);
+    step.push_out_speed = infinity; // then as fast as a spring that is compressed by all of its overlap
+    CHECK(most_asked(event(-0.2 * d, -1.0), step) == Approx(4.0 / 9.0 * 0.2 * d / h));
+    CHECK(law_of(event(-0.2 * d, 0.2), matched()).parting <= 0.0); // it adds no energy: what parts is left to do so
+
+    // Deeper than a quarter it gets stiffer, with one over the square of how far the centre is, at half a diameter of
+    // overlap, but for a thousandth of one.
+    const auto stiffer = [&](double at) { return barely.compliance / law_of(event(-at * d, -0.1), step).compliance; };
+    CHECK(stiffer(0.25) == Approx(1.0));
+    CHECK(stiffer(0.375) == Approx(4.0));
+    CHECK(stiffer(0.499) == Approx(std::pow(0.25 / least_rest, 2)));
+    CHECK(stiffer(0.9) == Approx(std::pow(0.25 / least_rest, 2)));
+
+    const auto of_rigid = law_of(event(-0.375 * d, -0.1), rigid());
+    CHECK(of_rigid.compliance == Approx(sigma / 4.0));
+    CHECK(of_rigid.parting == 0.0);
 }
 
-TEST_CASE("each kind of contact gets its law", "[stabilisation]")
+TEST_CASE("what has jammed yields until it is shallow", "[law][stabilisation][press]")
 {
-    const auto struck = normal_law(event(ContactKind::impact, -1e-5, -1.0), {h});
-    CHECK(struck.target == Approx(0.4));
-    CHECK(struck.compliance == 0.0);
-
-    const auto open = normal_law(event(ContactKind::open, 1e-4, nowhere), {h});
-    CHECK(open.target == Approx(-0.1)); // may close the gap in one step: u_n ≥ −g/h, without Υ
-    CHECK(open.compliance == 0.0);
-
-    const auto resting = normal_law(event(ContactKind::resting, -1e-5, -0.09), {h});
-    CHECK(resting.compliance == Approx(0.2 / 2 * w));                   // σ W, σ = 0.2 / N_min
-    CHECK(resting.target == Approx(4.0 / 9.0 * 1e-5 / h - 0.09 / 9.0)); // 4Υ κ/h + Υ u_n
-
-    const auto rigid = normal_law(event(ContactKind::resting, -1e-5, -0.09), {.h = h, .rigid = true});
-    CHECK(rigid.target == 0.0);
-    CHECK(rigid.compliance == 0.0);
-}
-
-TEST_CASE("a stiffness softer than the sweeps can carry decides the compliance", "[stabilisation]")
-{
-    const double k = 100.0;
-    CHECK(matched_compliance<double>(k, 2.0, h, 2) == Approx(4.0 / 9.0 / (k * h * h)));
-    CHECK(matched_compliance<double>(1e12, 2.0, h, 2) == Approx(0.2));
-}
-
-TEST_CASE("a jammed contact parts with the push-out speed at most", "[stabilisation][press]")
-{
-    LawOfStep step{.h = h, .push_out_speed = 0.05};
-    const auto target = [&](double gap) {
-        auto jammed = event(ContactKind::resting, gap, -0.1);
-        jammed.jammed = true;
-        return normal_law(jammed, step).target;
+    const auto yields = [](double overlap, bool jammed) {
+        ContactEvent<double> at = event(-overlap, -1e-9);
+        at.jammed = jammed;
+        return law_of(at, matched()).yields;
     };
-    CHECK(target(-1e-2) == step.push_out_speed);
-    CHECK(target(-1e-5) == Approx(4.0 / 9.0 * 1e-5 / h));
-    step.rigid = true;
-    CHECK(target(-1e-2) == 0.0);
+    CHECK(yields((jammed_overlap + 1e-9) * d, true));
+    CHECK_FALSE(yields((jammed_overlap - 1e-9) * d, true));
+    CHECK_FALSE(yields((jammed_overlap + 1e-9) * d, false));
 }
 
-TEST_CASE("a rigid contact gives back half of the turn of a concave wall, and never more than it takes",
-    "[stabilisation][tube]")
+TEST_CASE("springs of a split step bear at rest what those of the whole step would", "[law][stabilisation][sub_steps]")
 {
-    LawOfStep step{.h = h, .rigid = true};
-    const auto target = [&](double gap, double u_n, double turned) {
-        auto at_wall = event(gap > 0.0 ? ContactKind::open : ContactKind::resting, gap, u_n);
-        at_wall.u_n_turned = turned;
-        return normal_law(at_wall, step).target;
+    // Force λ/h of a contact at rest, u_n⁺ = 0.
+    const auto force = [](double stiffness, double parts) {
+        const LawOfStep step = matched(parts);
+        auto at = event(-1e-5, 0.0, 0.1, 1e-5);
+        at.stiffness = stiffness;
+        const auto law = law_of(at, step);
+        return law.target / law.compliance / step.h;
     };
-    CHECK(target(-1e-5, -0.5, -0.8) == Approx(0.4)); // on the chords of a circle u_n is half of the turn
-    CHECK(target(-1e-5, -0.8, -0.8) == Approx(0.4)); // from its tangent
-    CHECK(target(-1e-5, -0.1, -0.8) == Approx(0.1)); // no more than it comes with
-    CHECK(target(-1e-5, 0.1, -0.8) == 0.0);
-    CHECK(target(-1e-5, -0.5, 0.8) == 0.0); // a convex wall
-    CHECK(target(1e-4, -0.5, -0.8) == Approx(0.4 - 0.1));
-    step.rigid = false;
-    CHECK(target(1e-4, -0.5, -0.8) == Approx(-0.1));
+    // As stiff as sweeps can carry in the whole step: 4Υ/(Σ h²) = 2.2e6 N/m, and in a ninth of it 81 times that.
+    const double stiffest = 4.0 / 9.0 / (sigma * h * h);
+    for (const double parts : {1.0, 2.0, 9.0}) {
+        CAPTURE(parts);
+        CHECK(force(infinity, parts) == Approx(stiffest * 1e-5));
+        CHECK(force(10.0 * stiffest, parts) == Approx(stiffest * 1e-5));
+        CHECK(force(0.1 * stiffest, parts) == Approx(0.1 * stiffest * 1e-5));
+    }
 }
 
-TEST_CASE("what a load presses is compression at once, any other overlap with the push-out speed",
-    "[stabilisation][compression]")
+TEST_CASE("a loaded spring beside any other contacts takes (u_n⁺ + u_n)²/(4 Σ_n) out of the energy", "[law][energy]")
 {
-    const double h_before = 2.0 * h, gained = 0.05 * h;
-    const LawOfStep step{.h = h, .h_before = h_before, .push_out_speed = 0.05};
-    const auto compressed = [&](double gap, double before, double u_n, bool loaded) {
-        return compression<double>(gap, before, u_n, loaded, step);
+    // E = ½ λ (u⁺ + u) + what the spring holds after less what it held; others make u⁺ whatever it is, and λ follows.
+    Between between{Random(1)};
+    for (int k = 0; k < 200; ++k) {
+        CAPTURE(k);
+        const LawOfStep step = matched(k % 2 ? 1.0 : 3.0);
+        const double kappa = between(1e-6, 1e-4), u_before = between(-0.02, 0.02), u_after = between(-0.02, 0.002);
+        auto at = event(-kappa, u_before, 0.1, kappa);
+        at.stiffness = k % 3 ? infinity : between(1e5, 1e7);
+        const auto law = law_of(at, step);
+        REQUIRE(law.compression == kappa);
+        const double impulse = (law.target - u_after) / law.compliance;
+        if (impulse <= 0.0) continue;
+        const double after = compression_after<double>(kappa, -kappa, u_after, impulse, 1.0, step);
+        if (after == 0.0) continue;
+        const auto holds = [&](double compression, double u_n) {
+            return spring_energy<double>(compression, u_n, law.compliance, w, step);
+        };
+        const double change = 0.5 * impulse * (u_after + u_before) + holds(after, u_after) - holds(kappa, u_before);
+        const double sum = u_after + u_before;
+        CHECK(change == Approx(-sum * sum / (4.0 * law.compliance)).epsilon(1e-9).margin(1e-12));
+    }
+}
+
+TEST_CASE("a row without a spring puts in no more than λ_n times the speed with which it pushes", "[law][energy]")
+{
+    // A rigid row that has an impulse ends with u_n⁺ = q, and adds ½ λ (q + u_n), or less with Σ λ or a parting speed.
+    Between between{Random(2)};
+    int pushing = 0;
+    for (int k = 0; k < 500; ++k) {
+        CAPTURE(k);
+        const LawOfStep step = matched(k % 2 ? 1.0 : 3.0);
+        const auto at = event(between(-0.24 * d, 0.04 * d), between(-0.2, 0.2));
+        const auto law = law_of(at, step);
+        const double per_impulse = 0.5 * (std::min(law.target, law.parting) + at.u_n);
+        const double push = at.gap > 0.0 ? 0.0 : std::min(step.push_out_speed, 4.0 / 9.0 * -at.gap / step.h);
+        CHECK(per_impulse <= push * (1 + 1e-12) + 1e-15);
+        // And what is told of a contact that keeps no spring is no less than that.
+        if (law.compression > 0.0 || law.target <= 0.0) continue;
+        ++pushing;
+        const double impulse = 0.3;
+        const double told = push_out_energy<double>(law.compression, at.gap, law.target, impulse, step);
+        CHECK(told == Approx(impulse * push));
+        CHECK(told >= impulse * per_impulse * (1 - 1e-12));
+    }
+    CHECK(pushing > 50);
+    CHECK(push_out_energy<double>(1e-5, -1e-5, 0.1, 0.3, matched()) == 0.0);       // a spring is told as one
+    CHECK(push_out_energy<double>(-infinity, -1e-5, -0.1, 0.3, matched()) == 0.0); // nothing is pushed
+}
+
+TEST_CASE("a rigid row without a load, and an open one, put no energy in", "[law][energy]")
+{
+    Between between{Random(3)};
+    for (int k = 0; k < 200; ++k) {
+        const auto at = event(between(-0.06 * d, 0.01 * d), between(-0.2, 0.2));
+        const auto law = law_of(at, rigid());
+        CHECK(0.5 * (std::min(law.target, law.parting) + at.u_n) <= 1e-15); // for each N s
+        if (at.gap > 0.0) CHECK(0.5 * (law_of(at, matched()).target + at.u_n) <= 1e-15);
+    }
+}
+
+TEST_CASE("a spring gives back what it was pressed, and what e leaves of it where it is fast",
+    "[law][stabilisation][compression]")
+{
+    const auto after = [](double kappa, double u_n, double impulse, double restitution) {
+        return compression_after<double>(kappa, -kappa, u_n, impulse, restitution, matched());
     };
-    CHECK(compressed(-1.0, nowhere, nowhere, false) == Approx(gained)); // fresh, or closed by what it has not borne
-    CHECK(compressed(-1.0, 0.1, -2.0, true) == Approx(0.1 + 2.0 * h_before + gained));
-    CHECK(compressed(-1.0, 0.1, 2.0, true) == Approx(0.1 - 2.0 * h_before + gained));
-    CHECK(compressed(-1.0, h, 2.0, true) == Approx(gained)); // all of it has been given back
-    CHECK(compressed(-0.1, 0.2, -2.0, true) == 0.1);         // never more than the overlap
-    CHECK(compressed(1e-4, 0.2, -2.0, true) == 0.0);
+    for (const double restitution : {1.0, 0.5, 0.0}) {
+        CHECK(after(1e-4, -0.02, 0.1, restitution) == Approx(1e-4 + h * 0.02));
+        CHECK(after(1e-4, -1.0, 0.1, restitution) == Approx(1e-4 + h * 1.0)); // pressed, however fast
+        CHECK(after(1e-4, elastic, 0.1, restitution) == Approx(1e-4 - h * elastic));
+    }
+    // What parts faster gives way 1/e² as fast, by what it is faster: four times.
+    CHECK(after(1e-4, elastic + 0.01, 0.1, 1.0) == Approx(1e-4 - h * (elastic + 0.01)));
+    CHECK(after(1e-4, elastic + 0.01, 0.1, 0.5) == Approx(1e-4 - h * (elastic + 4 * 0.01)));
+    CHECK(after(1e-4, elastic + 0.01, 0.1, 0.0) == Approx(std::max(0.0, 1e-4 - h * (elastic + 16 * 0.01))));
+    CHECK(after(1e-5, 0.02, 0.1, 1.0) == 0.0); // all is given back
+    CHECK(after(1e-4, 0.0, 0.0, 1.0) == 0.0);  // not loaded
+    CHECK(after(-infinity, -0.1, 0.1, 1.0) == 0.0);
+}
+
+TEST_CASE("what a spring hands on is the same κ again where its normal does not turn", "[law][compression]")
+{
+    const LawOfStep step = matched();
+    for (const double u_n : {-0.1, 0.0, 0.05}) {
+        const double handed = handed_on<double>(1e-4, u_n, step);
+        CHECK(taken_over<double>(handed, u_n, step) == Approx(1e-4));
+        // Turned, so that the sphere moves towards the wall by w more, it is pressed by half a step of that.
+        CHECK(taken_over<double>(handed, u_n - 0.01, step) == Approx(1e-4 + 0.5 * h * 0.01));
+    }
+    CHECK(handed_on<double>(0.0, 0.1, step) == 0.0); // no spring
+    CHECK(handed_on<double>(0.9e-9 * d, 0.1, step) == 0.0);
+    CHECK(taken_over<double>(0.0, -0.1, step) == 0.0);
+    // A spring that a step has pressed is handed on as one, however fast.
+    const double after = compression_after<double>(1e-6, -1e-6, -5.0, 0.1, 0.4, step);
+    CHECK(handed_on<double>(after, -5.0, step) == Approx(1e-6 + 0.5 * h * 5.0));
+}
+
+TEST_CASE("beside an impact a contact without a load closes to 0.4 smallest diameters at most", "[law][impacts]")
+{
+    const LawOfStep step = matched();
+    for (const double gap : {1e-4, -1e-4, -0.1 * d}) {
+        // With u_n⁺ = q the overlap after the step is −(g + h q).
+        CHECK(-(gap + h * deferred_target(gap, -1.0, step)) == Approx(0.4 * d));
+        CHECK(deferred_target(gap, 50.0, step) == -50.0); // and it takes no energy in
+    }
+    // One that is deeper is let out, as fast as it comes at most.
+    CHECK(deferred_target(-0.5 * d, -0.1, step) == Approx(0.1));
+    CHECK(deferred_target(-0.5 * d, -5.0, step) == Approx(0.1 * d / h));
+}
+
+TEST_CASE("beside an impact a contact with a load is rigid, and takes no energy in", "[law][impacts]")
+{
+    CHECK(bearing_target(-1e-4, -0.3, matched()) == 0.0);
+    CHECK(bearing_target(1e-4, -0.3, matched()) == Approx(-0.1)); // to where it touches
+    for (const double gap : {1e-4, -1e-4}) CHECK(bearing_target(gap, 0.3, matched()) == -0.3);
+}
+
+TEST_CASE("a spring that bears an impact comes to hold no more than it did", "[law][impacts][energy]")
+{
+    CHECK(borne_compression(1e-4, 0.05, matched()) == 1e-4);
+    CHECK(borne_compression(1e-4, -0.05, matched()) == Approx(1e-4 - 0.5 * h * 0.05));
+    CHECK(borne_compression(1e-5, -0.05, matched()) == -infinity);
+    Between between{Random(4)};
+    int kept = 0;
+    for (int k = 0; k < 200; ++k) {
+        const LawOfStep step = matched(k % 2 ? 1.0 : 3.0);
+        const double kappa = between(1e-6, 1e-4), u_n = between(-0.05, 0.02);
+        const double begins = borne_compression(kappa, u_n, step), u_after = bearing_target(-kappa, u_n, step);
+        const double after = compression_after<double>(begins, -begins, u_after, 0.1, 1.0, step);
+        const auto holds = [&](double compression, double speed) {
+            return spring_energy<double>(compression, speed, sigma, w, step);
+        };
+        if (after == 0.0) continue;
+        ++kept;
+        CHECK(holds(after, u_after) <= holds(kappa, u_n) * (1 + 1e-12));
+        // One that parted comes back with as much: it holds what it did.
+        if (u_n > 0.0) CHECK(holds(after, u_after) == Approx(holds(kappa, u_n)));
+    }
+    CHECK(kept > 50);
 }

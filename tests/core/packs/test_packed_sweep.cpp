@@ -107,7 +107,7 @@ TEST_CASE("all instruction sets give the same bits, whatever a scene models", "[
 TEST_CASE("no two contacts of a pack share a sphere, and those of large tiles are nearly full", "[packed_sweep]")
 {
     World world = crowd({.friction = 0.4}, true, false);
-    world.step(1);
+    world.step(200); // until more of them lie
     std::size_t contacts = 0, large = 0;
     std::set<std::pair<std::int32_t, std::int32_t>> pairs;
     for (const TileContacts& tile : world.network.contacts.spheres) {
@@ -125,6 +125,45 @@ TEST_CASE("no two contacts of a pack share a sphere, and those of large tiles ar
     }
     CHECK(contacts > 400);
     CHECK(large > 0);
+}
+
+TEST_CASE("a contact asks for its parting speed at most, and friction is within the cone of that", "[packed_sweep]")
+{
+    // Eight pairs of like spheres that close with 1 m/s along n, and slide with as much across it: each asks to part
+    // with 1 m/s, and so has the impulse 2/W. W = 2/kg, and with spin tangents have 3.5 W.
+    constexpr double w = 2.0, friction = 0.5;
+    const auto lane = static_cast<std::size_t>(GENERATE(range(0, pack_size)));
+    const double parting = GENERATE(-2.0, -1.0, 0.0, 0.9, 1.1, infinity);
+    TileContacts contacts;
+    contacts.clear(false, false);
+    contacts.append_pack();
+    std::vector<Motion> motion(2 * pack_size, Motion{.inverse_mass = w / 2, .radius = standard_radius});
+    for (int k = 0; k < pack_size; ++k) {
+        motion[2 * k].velocity = Vec3(0.5, 0, -0.5);
+        motion[2 * k + 1].velocity = -motion[2 * k].velocity;
+        contacts.set(static_cast<std::size_t>(k), {.a = 2 * k, .b = 2 * k + 1, .target = 1.0},
+            {.friction = friction,
+                .parting = static_cast<std::size_t>(k) == lane ? parting : infinity,
+                .normal_mass = 1 / w,
+                .tangent_mass = 1 / (3.5 * w),
+                .inverse_mass_sum = w},
+            {});
+    }
+    const std::vector<Motion> before = motion;
+    for (const Kernels* kernels : usable_kernels()) {
+        CAPTURE(kernels->instructions);
+        TileContacts swept = contacts, none;
+        motion = before;
+        none.clear(false, false);
+        constexpr std::size_t variant = Rows<true, true, false, false>::index;
+        kernels->sweep[variant].relax(swept.span(), none.span(), reinterpret_cast<double*>(motion.data()), 1.0);
+        for (std::size_t k = 0; k < pack_size; ++k) {
+            const double normal = (1.0 + std::max(-1.0, k == lane ? std::min(parting, 1.0) : 1.0)) / w;
+            const double tangent = std::min(friction * normal, 1.0 / (3.5 * w));
+            CHECK((swept.impulse(k) - Vec3(-tangent, 0, normal)).norm() < 1e-15);
+            CHECK((motion[2 * k].velocity - before[2 * k].velocity - w / 2 * swept.impulse(k)).norm() < 1e-15);
+        }
+    }
 }
 
 TEST_CASE("contacts of one sphere are in packs of their own, more than a window of them", "[packed_sweep]")

@@ -4,6 +4,8 @@
 #include "tests/support/world.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 
 namespace talus::test
@@ -28,19 +30,20 @@ struct Touches {
     ContactPack contact = {};
     RecordPack record = {};
     TouchSums sums;
-    TouchMarks marks;
+    PackImpacts impacts;
 
     explicit Touches(std::uint64_t seed)
     {
         Random random(seed);
         const auto number = [&](double least, double most) { return least + (most - least) * uniform(random); };
-        step.law = {.h = 1e-3, .h_before = 2e-3, .threshold_speed = 0.03, .push_out_speed = 0.1};
+        step.law = {.h = 1e-3,
+            .threshold_speed = 0.03,
+            .elastic_speed = 0.04,
+            .push_out_speed = 0.1,
+            .min_diameter = 2 * radius};
         step.reach = 0.02 * radius;
         step.horizon = 1.5e-3;
-        step.touching = 1e-9 * radius;
         step.inverse_inertia = 2.5;
-        step.restitution = true;
-        step.jam_steps = TouchRecord::jam_steps;
         std::fill_n(step.cell_length, 3, infinity);
         for (int lane = 0; lane < pack_size; ++lane) {
             const Vec3 place(number(-1, 1), number(-1, 1), number(-1, 1));
@@ -54,16 +57,23 @@ struct Touches {
             record.slot[lane] = static_cast<std::uint32_t>(pack_size - 1 - lane);
             ContactLaw& law = laws[static_cast<std::size_t>(2 * lane * spheres + 2 * lane + 1)];
             law = {number(0, 1), lane % 3 ? number(0, 1) : 0.0, 0.0, lane % 2 ? 1e4 : infinity};
+            if (was_struck(lane)) carried_of(lane).touch.note_impact();
+            if (is_new(lane)) continue;
+            // In half of them it points outwards. Impacts have 10⁻³ N s: a part of these loads is none beside that.
             CarriedContact& own = carried_of(lane);
-            for (int d = 0; d < 3; ++d) own.impulse[d] = number(-1, 1);
+            const double size = lane % 2 ? 1.0 : 1e-7;
+            for (int d = 0; d < 3; ++d) own.impulse[d] = size * number(-1, 1);
             own.compression = static_cast<float>(number(0, 0.1 * radius));
-            own.touch.note_load(is_loaded(lane));
-            if (is_jammed(lane)) own.touch.note_crushed();
+            own.touch.note_load(true);
+            if (is_jammed(lane)) own.touch.note_yield(true);
+            if (had_gap(lane)) own.touch.note_closing();
         }
     }
 
-    static bool is_loaded(int lane) { return lane % 2; }
+    static bool is_new(int lane) { return lane % 4 == 0; }
+    static bool was_struck(int lane) { return lane == 4; }
     static bool is_jammed(int lane) { return lane % 4 == 3; }
+    static bool had_gap(int lane) { return lane == 5 || lane == 6; }
 
     void add(const Vec3& x)
     {
@@ -74,6 +84,33 @@ struct Touches {
 
     const ContactLaw& law(int lane) const { return laws[static_cast<std::size_t>(2 * lane * spheres + 2 * lane + 1)]; }
     CarriedContact& carried_of(int lane) { return carried[static_cast<std::size_t>(pack_size - 1 - lane)]; }
+    bool holds(int lane) const { return record.holds(static_cast<std::size_t>(lane)); }
+    bool is_struck(int lane) const { return impacts.lanes >> lane & 1U; }
+    static Vec3 vector(const double (&rows)[3][pack_size], int lane)
+    {
+        return {rows[0][lane], rows[1][lane], rows[2][lane]};
+    }
+    Vec3 normal(int lane) const { return vector(contact.normal, lane); }
+    Vec3 impulse(int lane) const { return vector(contact.impulse, lane); }
+    Vec3 across(int lane) const
+    {
+        const double *x = balls[2 * lane].center, *y = balls[2 * lane + 1].center;
+        return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+    }
+    Vec3 velocity(int lane) const { return motion[2 * lane].velocity - motion[2 * lane + 1].velocity; }
+
+    /// As if solved: each contact has an impulse at random, in its cone or not.
+    void solve(std::uint64_t seed)
+    {
+        Random random(seed);
+        for (int lane = 0; lane < pack_size; ++lane) {
+            const double along = std::max(0.0, 3e-4 * (uniform(random) - 0.2));
+            const Vec3 other(uniform(random), uniform(random), uniform(random));
+            const Vec3 tangent = 1e-4 * (other - other.dot(normal(lane)) * normal(lane));
+            if (!holds(lane)) continue;
+            for (int d = 0; d < 3; ++d) contact.impulse[d][lane] = along * normal(lane)[d] + tangent[d];
+        }
+    }
 
     SphereNumbers numbers() const
     {
@@ -81,12 +118,14 @@ struct Touches {
             reinterpret_cast<const double*>(laws.data()), reinterpret_cast<const double*>(carried.data())};
     }
 
-    void touch(const Kernels& kernels) { marks = kernels.touch.touch_spheres(contact, record, sums, numbers(), step); }
-
-    /// Returns the worst excess over the cone.
-    double hand_on(const Kernels& kernels, double deep, unsigned& deep_lanes)
+    void touch(const Kernels& kernels)
     {
-        return kernels.touch.hand_on(contact, record, deep, deep_lanes, reinterpret_cast<double*>(carried.data()));
+        impacts = kernels.touch.touch_spheres(contact, record, sums, numbers(), step);
+    }
+
+    HandedOn hand_on(const Kernels& kernels)
+    {
+        return kernels.touch.hand_on(contact, record, step.law, reinterpret_cast<double*>(carried.data()));
     }
 };
 
@@ -104,7 +143,6 @@ TEST_CASE("all instruction sets find the same touches and make the same contacts
     Touches begin(seed);
     begin.step.law.rigid = rigid;
     begin.step.law.parts = seed % 5 ? 1.0 : 3.0;
-    begin.step.law.shallow_overlap = 0.01 * radius;
     begin.step.is_periodic = seed % 3 == 0;
     if (begin.step.is_periodic) begin.step.cell_length[0] = 1.3;
     if (seed % 4 == 0) // the last lanes are empty
@@ -124,11 +162,14 @@ TEST_CASE("all instruction sets find the same touches and make the same contacts
         CHECK(same_bytes(other.contact, same.contact));
         CHECK(same_bytes(other.record, same.record));
         CHECK(same_bytes(other.sums, same.sums));
-        CHECK((other.marks.impact == same.marks.impact && other.marks.carries == same.marks.carries));
-        unsigned deep = 0, same_deep = 0;
-        const double worst = other.hand_on(*kernels, 0.02 * radius, deep);
-        CHECK(worst == same.hand_on(plain_kernels, 0.02 * radius, same_deep));
-        CHECK(deep == same_deep);
+        CHECK(other.impacts.lanes == same.impacts.lanes);
+        CHECK(same_bytes(other.impacts.size, same.impacts.size));
+        for (Touches* touches : {&other, &same}) touches->solve(seed);
+        const HandedOn told = other.hand_on(*kernels), same_told = same.hand_on(plain_kernels);
+        CHECK(told.cone_violation == same_told.cone_violation);
+        CHECK(told.stored_energy == same_told.stored_energy);
+        CHECK(told.push_out_energy == same_told.push_out_energy);
+        CHECK(told.deep_lanes == same_told.deep_lanes);
         CHECK(same_bytes(other.record, same.record));
         for (std::size_t slot = 0; slot < pack_size; ++slot) CHECK(same_bytes(other.carried[slot], same.carried[slot]));
         for (const std::uint32_t candidates : {8u, 5u, 1u})
@@ -136,100 +177,201 @@ TEST_CASE("all instruction sets find the same touches and make the same contacts
     }
 }
 
+TEST_CASE("a gap is laid where the spheres' free paths close it, or come nearest", "[packed_touch]")
+{
+    Touches all(static_cast<std::uint64_t>(GENERATE(range(1, 40))));
+    all.touch(fastest_kernels());
+    for (int lane = 0; lane < pack_size; ++lane) {
+        CAPTURE(lane);
+        const Vec3 across = all.across(lane), velocity = all.velocity(lane);
+        const double open = across.norm() - 2 * radius;
+        double instant = 0.0;
+        if (open > 0.0 && across.dot(velocity) < 0.0) {
+            // The nearest instant of this step, or an earlier one at which they touch, sought step by step.
+            const int parts = 100000;
+            double nearest = across.norm();
+            for (int k = 1; k <= parts && nearest > 2 * radius; ++k) {
+                const double then = all.step.law.h * k / parts, distance = (across + then * velocity).norm();
+                if (distance >= nearest) break;
+                nearest = distance;
+                instant = then;
+            }
+        }
+        const Vec3 then = across + instant * velocity;
+        const Vec3 normal = then.norm() > 0.0 ? Vec3(then.normalized()) : Vec3::UnitZ(); // any, but always the same
+        CHECK((all.normal(lane) - normal).norm() < 1e-5);
+        CHECK(all.normal(lane).norm() == Approx(1.0));
+        CHECK(all.contact.arm_scale[lane] == Approx(then.norm() / (2 * radius)).epsilon(1e-5));
+        const bool touches = open <= 0.0;
+        const double gap = touches ? open : all.normal(lane).dot(across) - 2 * radius;
+        CHECK(all.record.gap[lane] == Approx(gap).epsilon(1e-12).margin(1e-16));
+        // Where paths close it, the gap along n is gone at that very instant.
+        if (instant > 0.0 && then.norm() - 2 * radius < 1e-9 * radius)
+            CHECK(gap + instant * all.normal(lane).dot(velocity) == Approx(0.0).margin(1e-5 * radius));
+        const double u_n = all.normal(lane).dot(velocity);
+        CHECK(all.holds(lane) == (gap <= all.step.reach || gap + all.step.horizon * u_n <= 0.0));
+    }
+}
+
 TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]")
 {
     Touches all(static_cast<std::uint64_t>(GENERATE(range(1, 40))));
     all.step.law.rigid = GENERATE(false, true);
+    all.step.law.parts = GENERATE(1.0, 3.0);
     all.touch(fastest_kernels());
     const ContactPack& contact = all.contact;
+    const LawOfStep& step = all.step.law;
     for (int lane = 0; lane < pack_size; ++lane) {
         CAPTURE(lane);
-        const Motion &a = all.motion[2 * lane], &b = all.motion[2 * lane + 1];
-        const double *x = all.balls[2 * lane].center, *y = all.balls[2 * lane + 1].center;
-        const Vec3 across(x[0] - y[0], x[1] - y[1], x[2] - y[2]), velocity = a.velocity - b.velocity;
-        const double gap = across.norm() - 2 * radius;
-        const Vec3 normal = across.norm() > 0.0 ? Vec3(across / across.norm()) : Vec3::UnitZ();
-        const double u_n = normal.dot(velocity), apart = across.squaredNorm() - 4 * radius * radius;
-        CHECK(all.record.gap[lane] == gap);
-        for (int d = 0; d < 3; ++d) CHECK(contact.normal[d][lane] == normal[d]);
-        CHECK(contact.arm_scale[lane] == across.norm() / (2 * radius));
-
-        const auto root = [](double square) { return std::sqrt(square); };
-        const ContactLaw& pair = all.law(lane);
-        const CarriedContact& own = all.carried_of(lane);
-        const bool loaded = Touches::is_loaded(lane);
-        const double closes = closing_time<double>(-across.dot(velocity), velocity.squaredNorm(), apart, root);
-        const bool impact = is_impact<double>(gap, u_n, closes, loaded, pair.restitution, all.step.law);
-        const bool within_reach = gap <= all.step.reach || gap + all.step.horizon * u_n <= 0.0;
-        const bool misses = gap > 0.0 && closes >= all.step.law.h;
-        const bool bears = loaded || pair.restitution == 0.0;
-        const bool passes_by = !impact && !bears && misses && gap + all.step.law.h * u_n < 0.0;
-        CHECK(all.record.holds(static_cast<std::size_t>(lane)) == (within_reach && !passes_by));
-        if (!all.record.holds(static_cast<std::size_t>(lane))) {
+        if (!all.holds(lane)) {
             for (const auto* row : {contact.target, contact.compliance, contact.normal_mass, contact.tangent_mass,
                      contact.inverse_mass_sum, contact.impulse[0], contact.impulse[1], contact.impulse[2]})
                 CHECK(row[lane] == 0.0);
+            CHECK_FALSE(all.is_struck(lane));
+            for (const auto* sum : {all.sums.overlap, all.sums.stored_energy, all.sums.push_out_energy})
+                CHECK(sum[lane] == 0.0);
             continue;
         }
-        CHECK((all.record.kind[lane] == ContactKind::impact) == impact);
-        CHECK((all.record.kind[lane] == ContactKind::open) == (!impact && gap > 0.0));
-        CHECK((all.marks.impact >> lane & 1U) == impact);
+        const Vec3 across = all.across(lane), velocity = all.velocity(lane), normal = all.normal(lane);
+        const double gap = all.record.gap[lane];
+        const double w = all.motion[2 * lane].inverse_mass + all.motion[2 * lane + 1].inverse_mass;
+        const ContactLaw& pair = all.law(lane);
+        const CarriedContact& own = all.carried_of(lane);
+        const double carried_along = std::max(0.0, own.impulse.dot(normal));
+        const auto root = [](double square) { return std::sqrt(square); };
+        const double u_n = normal.dot(velocity);
+        const ContactEvent<double> event{gap, 2 * radius, 0.5 * radius, u_n, u_n,
+            closing_time<double>(
+                -across.dot(velocity), velocity.squaredNorm(), across.squaredNorm() - 4 * radius * radius, root),
+            w, pair.restitution, pair.stiffness, Touches::had_gap(lane) ? 0.0 : step.parts * carried_along,
+            taken_over<double>(own.compression, u_n, step), Touches::was_struck(lane), Touches::is_jammed(lane)};
+        const bool impact = is_impact<double>(event, step), open = gap > touching_gap * 2 * radius;
+        const double spring = spring_compliance<double>(pair.stiffness, w, step);
+        const bool yields = -gap > elastic_overlap<double>(event, step);
+        CHECK(all.is_struck(lane) == impact);
+        CHECK(all.impacts.size[lane] == (impact ? Approx(impact_size<double>(event)) : Approx(0.0).margin(0.0)));
+        CHECK(all.record.kind[lane] == (impact      ? ContactKind::impact
+                                           : open   ? ContactKind::open
+                                           : yields ? ContactKind::yielding
+                                                    : ContactKind::resting));
 
-        // What is carried: the part along n, and within the cone of that across it.
-        const Vec3 warm(contact.impulse[0][lane], contact.impulse[1][lane], contact.impulse[2][lane]);
-        const double along = impact ? 0.0 : std::max(0.0, own.impulse.dot(normal));
+        // What is carried: the part along n, and within the cone of that across it. Of an impact, nothing.
+        const Vec3 warm = all.impulse(lane);
+        const double along = impact ? 0.0 : carried_along;
         CHECK(warm.dot(normal) == Approx(along).margin(1e-15));
         const Vec3 tangent = own.impulse - own.impulse.dot(normal) * normal;
-        const double share = std::min(1.0, pair.friction * along / tangent.norm());
+        const double share = tangent.norm() > 0.0 ? std::min(1.0, pair.friction * along / tangent.norm()) : 0.0;
         CHECK((warm - along * normal - share * tangent).norm() < 1e-14);
-        CHECK((all.marks.carries >> lane & 1U) == (along > 0.0));
 
-        const double w = a.inverse_mass + b.inverse_mass;
-        const bool jammed = Touches::is_jammed(lane);
-        const double kappa = jammed ? 0.0 : compression<double>(gap, own.compression, u_n, loaded, all.step.law);
-        CHECK(all.record.compression[lane] == static_cast<float>(kappa));
-        const bool rests = !impact && gap <= 0.0;
-        const auto law = normal_law<double>({impact, !impact && gap > 0.0, rests && !jammed ? -kappa : gap, u_n, w,
-                                                pair.restitution, pair.stiffness, jammed},
-            all.step.law);
+        const auto law = normal_law<double>(event, impact, step);
         CHECK(contact.target[lane] == Approx(law.target).epsilon(1e-12).margin(1e-15));
         CHECK(contact.compliance[lane] == law.compliance);
+        CHECK(contact.parting[lane] == Approx(law.parting));
         CHECK(contact.normal_mass[lane] == 1.0 / (w + law.compliance));
+        const double s = contact.arm_scale[lane];
+        CHECK(contact.tangent_mass[lane] == Approx(1.0 / (w * (1.0 + 2.5 * s * s))));
+        CHECK(contact.inverse_mass_sum[lane] == w);
+
+        CHECK(all.record.compression[lane] == Approx(static_cast<float>(law.compression)));
+        CHECK(all.record.spring[lane] == static_cast<float>(spring));
+        CHECK(all.record.restitution[lane] == static_cast<float>(pair.restitution));
+        CHECK(all.record.hands_on[lane] == (impact ? 0.0F : INFINITY));
+
+        CHECK(all.sums.overlap[lane] == std::max(0.0, -gap));
+        CHECK(all.sums.worst_overlap[lane] == std::max(0.0, -gap));
+        CHECK(all.sums.overlapping[lane] == (gap < 0.0));
+        // A spring holds what it held with the κ that it had, and what pushing out has put in; a new one, all of it.
+        const bool keeps = law.compression > 0.0, had = keeps && event.compression > touching_gap * 2 * radius;
+        const auto energy = [&](double kappa, double speed) {
+            return spring_energy<double>(kappa, speed, spring, w, step);
+        };
+        const double held = had ? energy(std::min(-gap, event.compression), event.u_n) : 0.0;
+        const double holds = keeps ? energy(law.compression, had ? event.u_n : 0.0) : 0.0;
+        CHECK(all.sums.stored_energy[lane] == Approx(holds).margin(1e-18));
+        CHECK(all.sums.push_out_energy[lane] == Approx(holds - held).margin(1e-12 * std::abs(holds)));
     }
 }
 
-TEST_CASE("contacts hand on their impulses, impacts and touches out of reach nothing", "[packed_touch]")
+TEST_CASE("all kinds of touches between spheres are among those tested", "[packed_touch]")
 {
-    Touches all(static_cast<std::uint64_t>(GENERATE(range(1, 40))));
+    std::array<int, 4> count = {};
+    int out_of_reach = 0, springs = 0;
+    for (std::uint64_t seed = 1; seed < 40; ++seed) {
+        Touches all(seed);
+        all.touch(fastest_kernels());
+        for (int lane = 0; lane < pack_size; ++lane) {
+            if (all.holds(lane)) ++count[static_cast<std::size_t>(all.record.kind[lane])];
+            out_of_reach += !all.holds(lane);
+            springs += all.record.compression[lane] > 0.0F;
+        }
+    }
+    for (const int of_kind : count) CHECK(of_kind > 10);
+    CHECK(out_of_reach > 10);
+    CHECK(springs > 10);
+}
+
+TEST_CASE("contacts hand on their impulses and what their springs keep, impacts and touches out of reach nothing",
+    "[packed_touch]")
+{
+    const auto seed = static_cast<std::uint64_t>(GENERATE(range(1, 40)));
+    Touches all(seed);
+    all.step.law.rigid = GENERATE(false, true);
     all.touch(fastest_kernels());
-    const double deep = 0.05 * radius;
-    for (int lane = 0; lane < pack_size; lane += 2) // as if solved
-        if (all.record.holds(static_cast<std::size_t>(lane)))
-            for (int d = 0; d < 3; ++d) all.contact.impulse[d][lane] = 0.3 * all.contact.normal[d][lane];
+    all.solve(seed);
+    if (seed % 2) // beside an impact a contact hands on no more than its spheres bore
+        for (float& most : all.record.hands_on) most = std::min(most, 1e-4F);
+    const double deep = jammed_overlap * all.step.law.min_diameter;
     const Touches solved = all;
-    unsigned deep_lanes = 0;
-    double worst = 0.0;
-    const double told = all.hand_on(fastest_kernels(), deep, deep_lanes);
+    const LawOfStep& step = all.step.law;
+    const HandedOn told = all.hand_on(fastest_kernels());
+    double worst = 0.0, stored = 0.0, pushed = 0.0;
     for (int lane = 0; lane < pack_size; ++lane) {
         CAPTURE(lane);
         const CarriedContact& own = all.carried_of(lane);
-        const Vec3 impulse(
-            solved.contact.impulse[0][lane], solved.contact.impulse[1][lane], solved.contact.impulse[2][lane]);
-        const Vec3 normal(
-            solved.contact.normal[0][lane], solved.contact.normal[1][lane], solved.contact.normal[2][lane]);
-        const bool holds = all.record.holds(static_cast<std::size_t>(lane));
-        const bool keeps = holds && all.record.kind[lane] != ContactKind::impact;
-        CHECK(own.impulse == (keeps ? impulse : Vec3::Zero().eval()));
-        CHECK(own.compression == solved.record.compression[lane]);
-        const bool is_deep = holds && -all.record.gap[lane] > deep;
-        CHECK((deep_lanes >> lane & 1U) == is_deep);
-        if (!holds) CHECK_FALSE(own.touch.is_loaded());
-        if (holds && !is_deep) CHECK(own.touch.is_loaded() == (keeps && impulse.dot(normal) > 0.0));
-        if (is_deep) CHECK(own.touch.is_jammed() == Touches::is_jammed(lane)); // left to the caller
-        const double along = impulse.dot(normal);
-        worst = std::max(worst, (impulse - along * normal).norm() - all.law(lane).friction * along);
+        const ContactPack& contact = solved.contact;
+        const Vec3 impulse = solved.impulse(lane);
+        const double along = impulse.dot(solved.normal(lane)), most = solved.record.hands_on[lane];
+        worst = std::max(worst, (impulse - along * solved.normal(lane)).norm() - contact.friction[lane] * along);
+        const bool is_deep = solved.holds(lane) && -solved.record.gap[lane] > deep;
+        CHECK((told.deep_lanes >> lane & 1U) == is_deep);
+        if (!solved.holds(lane)) {
+            CHECK(own.impulse == Vec3::Zero());
+            CHECK(own.compression == 0.0F);
+            CHECK_FALSE((own.touch.is_loaded() || own.touch.was_impact()));
+            continue;
+        }
+        const Vec3 handed = along > most ? Vec3(most / along * impulse) : impulse;
+        CHECK((own.impulse - handed).norm() < 1e-18);
+        const ContactKind kind = solved.record.kind[lane];
+        if (kind == ContactKind::impact && along > 0.0) CHECK(own.impulse == Vec3::Zero());
+
+        const bool is_loaded = along > 0.0;
+        if (is_deep) {
+            CHECK(own.touch.is_jammed() == Touches::is_jammed(lane)); // left to the caller
+        } else {
+            CHECK(own.touch.is_loaded() == (is_loaded && kind != ContactKind::impact));
+            CHECK(own.touch.was_impact() == (is_loaded && kind == ContactKind::impact));
+            CHECK(own.touch.was_open() == (is_loaded && kind == ContactKind::open));
+            CHECK_FALSE(own.touch.is_jammed());
+        }
+
+        // A solved row tells u_n: q − Σ λ, or its parting speed. From it a spring knows what is left of it.
+        const double u_n = std::min(contact.target[lane] - contact.compliance[lane] * along, contact.parting[lane]);
+        const double kappa = compression_after<double>(solved.record.compression[lane], solved.record.gap[lane], u_n,
+            along, solved.record.restitution[lane], step);
+        const bool keeps = kappa > touching_gap * step.min_diameter;
+        CHECK(own.compression == Approx(static_cast<float>(handed_on<double>(kappa, u_n, step))));
+        CHECK((own.compression > 0.0F) == keeps);
+        if (keeps)
+            stored +=
+                spring_energy<double>(kappa, u_n, solved.record.spring[lane], contact.inverse_mass_sum[lane], step);
+        if (kind == ContactKind::resting || kind == ContactKind::yielding)
+            pushed += push_out_energy<double>(
+                solved.record.compression[lane], solved.record.gap[lane], contact.target[lane], along, step);
     }
-    CHECK(told == Approx(worst).margin(1e-16));
+    CHECK(told.cone_violation == Approx(worst).margin(1e-18));
+    CHECK(told.stored_energy == Approx(stored).margin(1e-20));
+    CHECK(told.push_out_energy == Approx(pushed).margin(1e-20));
 }
 
 TEST_CASE("a touch across the border of a cell is that of the nearest image", "[packed_touch][periodic]")

@@ -45,13 +45,15 @@ TEST_CASE("two that meet no one else meet at their instant, with gravity too", "
               .norm() < 1e-12 * r);
 }
 
-TEST_CASE("a ball that falls on one that lies is seen where both are at the beginning of the step", "[flight]")
+TEST_CASE("a ball that falls on one that lies meets it where their paths do, but both have new velocities all the step",
+    "[flight]")
 {
     World world = about_to_meet(true);
-    const Vec3 x = world.position(1), apart = x - world.position(0);
+    const Vec3 x = world.position(1), apart = x - world.position(0), closing = world.velocity(1) - world.velocity(0);
     world.step();
     const ContactForce impact = impact_of(world);
     const Vec3 from_0_to_1 = impact.a == 1 ? impact.normal : Vec3(-impact.normal);
-    CHECK((from_0_to_1 - apart.normalized()).norm() < 1e-12);
+    CHECK((from_0_to_1 - (apart + 0.5 * h * closing) / (2.0 * r)).norm() < 1e-12);
+    CHECK(impact.arm_scale == within(1e-12, 1.0));
     CHECK((world.position(1) - x - h * world.velocity(1)).norm() < 1e-12 * r);
 }

@@ -70,7 +70,7 @@ Vec3 rolling_impulse(const TileContacts& contacts, std::size_t k)
     return contacts.has_rolling() ? contacts.rolling_impulse(k) : Vec3::Zero().eval();
 }
 
-/// What the assembled contacts are in the words of the note; lever arms and masses the oracle works out by itself.
+/// What the assembled contacts are in the words of the note; masses the oracle works out by itself.
 std::vector<DenseContact> dense_contacts(const ContactNetwork& network)
 {
     std::vector<DenseContact> all;
@@ -98,6 +98,37 @@ std::vector<DenseContact> dense_contacts(const ContactNetwork& network)
         all.push_back(dense);
     });
     return all;
+}
+
+/// The oracle knows no parting speed (test_packed_sweep.cpp has that of the kernel): none may have one.
+void let_part(ContactNetwork& network)
+{
+    const auto change = [](TileContacts& contacts) {
+        for (const std::size_t k : contacts.indices()) {
+            ContactTerms terms = contacts.terms(k);
+            terms.parting = infinity;
+            contacts.set(k, contacts.contact(k), terms);
+        }
+    };
+    for (TileContacts& contacts : network.contacts.spheres) change(contacts);
+    for (TileContacts& contacts : network.contacts.walls) change(contacts);
+    change(network.contacts.pistons);
+}
+
+/// Lever arms of contacts that are laid where paths meet, in the rows of the oracle, which has them where spheres are.
+void lay_arms(DenseProblem& dense, const ContactNetwork& network, const State& state)
+{
+    Eigen::Index row = 0;
+    for_each_contact(network, [&](const TileContacts& contacts, std::size_t slot, bool with_wall) {
+        const std::int32_t a = contacts.a(slot), b = contacts.b(slot);
+        if (!with_wall) {
+            const double radii = state.radius(a) + state.radius(b);
+            const double longer =
+                contacts.terms(slot).arm_scale * radii / (state.position[a] - state.position[b]).norm();
+            for (const std::int32_t sphere : {a, b}) dense.jacobian.block<3, 3>(row, 6 * sphere + 3) *= longer;
+        }
+        row += DenseProblem::rows;
+    });
 }
 
 /// Largest differences of kernel and oracle, relative to the largest impulse and speed.
@@ -265,15 +296,20 @@ namespace
 void check_against_oracle(World& world, int sweeps)
 {
     const Model& model = world.model;
-    begin(world);
+    for (int k = 0; k == 0 || (k < 100 && !has_kind(world.network, ContactKind::impact)); ++k) {
+        if (k > 0) world.step();
+        begin(world);
+    }
+    let_part(world.network);
     const auto contacts = dense_contacts(world.network);
     REQUIRE(contacts.size() > 15);
     REQUIRE(has_kind(world.network, ContactKind::open));
     REQUIRE(has_kind(world.network, ContactKind::resting));
-    REQUIRE(has_kind(world.network, ContactKind::impact) == model.physics.restitution);
+    REQUIRE(has_kind(world.network, ContactKind::impact));
 
     // Without friction no row has spin either.
     auto dense = make_dense_problem(world.state, contacts, model.physics.spin);
+    lay_arms(dense, world.network, world.state);
     if (model.physics.pistons) add_pistons(dense, world.state, model, contacts);
     const Eigen::VectorXd warm_impulse = dense.impulse;
     REQUIRE(warm_impulse.norm() > 0);

@@ -3,6 +3,7 @@
 #include "core/step/incidents.hpp"
 #include "tests/support/world.hpp"
 
+#include <array>
 #include <cmath>
 
 using namespace talus;
@@ -38,59 +39,69 @@ int incidents_in(World& world, int steps)
 
 } // namespace
 
-TEST_CASE("a contact is jammed when it has been pressed for its steps in a row, and comes to be so once", "[press]")
+TEST_CASE("a contact that yields is jammed once it has had all that it bears, until it yields no more", "[press]")
 {
     TouchRecord touch;
-    for (int k = 1; k <= 300; ++k) {
-        touch.note_pressed();
-        CHECK(touch.is_jammed() == (k >= TouchRecord::jam_steps));
-        CHECK(touch.is_newly_jammed() == (k == TouchRecord::jam_steps));
+    if (GENERATE(true, false)) touch.note_impact();
+    for (int k = 0; k < 3; ++k) { // it yields, and bears what there is
+        touch.note_yield(false);
+        CHECK(touch.is_loaded());
+        CHECK_FALSE(touch.is_jammed());
+        CHECK_FALSE(touch.was_impact());
     }
-}
-
-TEST_CASE("a jammed contact yields until it has not been pressed for as many steps, and is told once", "[press]")
-{
-    TouchRecord touch;
-    for (int k = 1; k <= TouchRecord::jam_steps; ++k) touch.note_pressed();
-    REQUIRE(touch.is_newly_jammed());
-    for (int k = 1; k < TouchRecord::jam_steps; ++k) {
-        touch.note_unpressed();
-        CHECK(touch.is_jammed());
-        CHECK_FALSE(touch.is_newly_jammed());
-    }
-    const auto is_as_any_other = [&] {
-        touch.note_unpressed();
-        return touch.is_loaded() && !touch.is_jammed();
-    };
-    SECTION("one step more, and it is as any other")
-    {
-        CHECK(is_as_any_other());
-        CHECK(is_as_any_other());
-    }
-    SECTION("pressed again, it yields for as long again")
-    {
-        touch.note_pressed();
-        CHECK_FALSE(touch.is_newly_jammed());
-        for (int k = 1; k < TouchRecord::jam_steps; ++k) touch.note_unpressed();
-        CHECK(touch.is_jammed());
-        CHECK(is_as_any_other());
-    }
-}
-
-TEST_CASE("a crushed contact is jammed at once, and until it is shallow", "[press]")
-{
-    TouchRecord touch;
-    if (GENERATE(true, false)) touch.note_load(true);
-    touch.note_crushed();
-    CHECK(touch.is_newly_jammed());
-    for (int k = 0; k < 3 * TouchRecord::jam_steps; ++k) {
-        touch.note_crushed();
-        CHECK(touch.is_jammed());
-        CHECK_FALSE(touch.is_newly_jammed());
-    }
-    touch.note_load(true);
+    touch.note_yield(true);
     CHECK(touch.is_loaded());
+    CHECK(touch.is_jammed());
+    CHECK(touch.is_newly_jammed());
+    for (int k = 0; k < 300; ++k) { // as long as it is deep, whatever it bears: it is told once
+        touch.note_yield(k % 3 == 0);
+        CHECK(touch.is_loaded());
+        CHECK(touch.is_jammed());
+        CHECK_FALSE(touch.is_newly_jammed());
+    }
+    SECTION("shallow, and still loaded")
+    {
+        touch.note_load(true);
+    }
+    SECTION("shallow, and closing a gap")
+    {
+        touch.note_closing();
+    }
+    SECTION("shallow, and an impact")
+    {
+        touch.note_impact();
+    }
+    SECTION("apart")
+    {
+        touch.note_load(false);
+    }
     CHECK_FALSE(touch.is_jammed());
+    touch.note_yield(false);
+    CHECK_FALSE(touch.is_jammed());
+    touch.note_yield(true); // then it can come to be so anew
+    CHECK(touch.is_newly_jammed());
+}
+
+TEST_CASE(
+    "what a contact was in the step before is one of: nothing, a load, the closing of a gap, an impact", "[press]")
+{
+    // (loaded, was open, was an impact): an impact is no load, for it has no part in the next step.
+    const auto is = [](const TouchRecord& touch) {
+        return std::array{touch.is_loaded(), touch.was_open(), touch.was_impact()};
+    };
+    TouchRecord touch;
+    CHECK(is(touch) == std::array{false, false, false});
+    for (int k = 0; k < 2; ++k) { // whatever it was before
+        touch.note_impact();
+        CHECK(is(touch) == std::array{false, false, true});
+        touch.note_load(true);
+        CHECK(is(touch) == std::array{true, false, false});
+        touch.note_closing();
+        CHECK(is(touch) == std::array{true, true, false});
+        touch.note_load(false);
+        CHECK(is(touch) == std::array{false, false, false});
+        touch.note_closing();
+    }
 }
 
 TEST_CASE("overlaps at the start, a shaken bed and a heavy plate are no presses", "[press]")

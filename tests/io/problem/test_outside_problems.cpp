@@ -252,3 +252,33 @@ TEST_CASE("what is written in FCLIB's words comes back as the same problem, comp
     CHECK((y.impulse() - file.guesses[0].r).norm() < 1e-14);
     CHECK((again.in_order_of_matrices(y.velocity()).head(6) - x.velocity()).norm() < 1e-14);
 }
+
+TEST_CASE("a contact that parts no faster than it may does so as it is read back", "[multibody][fclib]")
+{
+    // A ball on a spring that would part with 0.5 m/s, and asks for 0.2 m/s; what falls on it takes it further down,
+    // until it is as soft as the spring.
+    for (const double fall : {0.0, 0.4, 3.0}) {
+        CAPTURE(fall);
+        Problem problem;
+        for (const double velocity : {0.0, -fall})
+            problem.add_body(Eigen::MatrixXd::Identity(3, 3), Vector3d(0.3, -0.2, velocity));
+        const Eigen::MatrixXd rows = (Eigen::MatrixXd(3, 3) << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished();
+        const Constraint spring{.law = Law::contact, .friction = 0.3, .headroom = -0.3, .compliance = 0.5};
+        const Constraint rigid{.law = Law::contact, .friction = 0.3, .headroom = -0.1}; // asks for −0.1 m/s
+        problem.add_constraint(spring, {{0, rows}}, Vector3d(0.5, 0.0, 0.0), Vector3d(0.5, 0.0, 0.0));
+        problem.add_constraint(rigid, {{1, rows}, {0, -rows}}, Vector3d::Zero(), Vector3d::Zero());
+        Iterate x(problem);
+        const SolveSettings exact{.tolerance = 1e-14, .max_sweeps = 10000};
+        REQUIRE(solve_projected(x, exact).converged);
+        const double u = x.velocity()[2];
+        CHECK(u == Approx(std::min(0.2, 0.5 - 0.5 * x.impulse()[0])));
+
+        const auto file = to_fclib(problem, x.impulse());
+        REQUIRE(file.contacts() == 3);
+        const auto again = with_bodies(file, "again");
+        Iterate y(again.problem);
+        REQUIRE(solve_projected(y, exact).converged);
+        CHECK((again.in_order_of_matrices(y.velocity()).head(6) - x.velocity()).norm() < 1e-10);
+        CHECK((y.impulse() - file.guesses[0].r).norm() < 1e-10);
+    }
+}

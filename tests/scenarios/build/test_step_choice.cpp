@@ -115,8 +115,8 @@ TEST_CASE("the forecast tells the stiffness that the law has between two mean sp
     const auto& model = simulation.model;
     // k = 4 Υ / (Σ h²) of the compliance Σ that a resting contact of this run gets.
     const double mass = 2500.0 * std::numbers::pi / 6.0 * 1e-6;
-    const double compliance = matched_compliance(
-        model.materials.between(0, 0).stiffness, 2.0 / mass, model.time_step, model.solver.min_sweeps);
+    const double compliance = spring_compliance<double>(model.materials.between(0, 0).stiffness, 2.0 / mass,
+        {.h = model.time_step, .min_sweeps = static_cast<double>(model.solver.min_sweeps)});
     char stiffness[40];
     std::snprintf(
         stiffness, sizeof stiffness, "%.3g N/m", 4 * upsilon / (compliance * model.time_step * model.time_step));

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contacts/beside_impacts.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace talus
+{
+namespace
+{
+
+/// The contacts of a tile, between spheres or with walls, of which a sphere has an impact.
+class Bystanders
+{
+public:
+    Bystanders(TileContacts& contacts, bool with_walls, std::vector<SphereImpacts>& impacts, const State& state)
+        : contacts_(contacts), with_walls_(with_walls), impacts_(impacts), state_(state)
+    {
+    }
+
+    /// Notes what other spheres press on spheres with.
+    void note_loads()
+    {
+        for_each([&](std::size_t k) {
+            const double load = contacts_.impulse(k).dot(contacts_.normal(k));
+            impacts_[contacts_.a(k)].note_load(load);
+            impacts_[contacts_.b(k)].note_load(load);
+        });
+    }
+
+    /// Gives each its law. Returns the greatest ratio of masses of those that bear.
+    /// @param velocity_of_other(k) of b at contact k
+    template <class Velocity> double settle(const LawOfStep& step, Velocity&& velocity_of_other)
+    {
+        double ratio = 0.0;
+        for_each([&](std::size_t k) {
+            const double u_n = contacts_.normal(k).dot(state_.motion[contacts_.a(k)].velocity - velocity_of_other(k));
+            if (!settle_one(k, u_n, step)) return;
+            ratio = std::max(ratio, mass_ratio(contacts_.a(k)));
+            if (!with_walls_) ratio = std::max(ratio, mass_ratio(contacts_.b(k)));
+        });
+        return ratio;
+    }
+
+private:
+    TileContacts& contacts_;
+    const bool with_walls_;
+    std::vector<SphereImpacts>& impacts_;
+    const State& state_;
+
+    double mass_ratio(std::int32_t sphere) const { return impacts_[sphere].mass * state_.motion[sphere].inverse_mass; }
+
+    template <class Visit> void for_each(Visit&& visit) const
+    {
+        for (std::size_t p = 0; p < contacts_.packs(); ++p)
+            for (unsigned lanes = struck_lanes(p); lanes != 0; lanes &= lanes - 1)
+                visit(pack_size * p + static_cast<std::size_t>(std::countr_zero(lanes)));
+    }
+
+    /// As bits.
+    unsigned struck_lanes(std::size_t p) const
+    {
+        const ContactPack& pack = contacts_.pack(p);
+        unsigned lanes = 0;
+        for (unsigned lane = 0; lane < pack_size && pack.a[lane] >= 0; ++lane) {
+            const bool is_struck =
+                impacts_[pack.a[lane]].size > 0.0 || (!with_walls_ && impacts_[pack.b[lane]].size > 0.0);
+            lanes |= static_cast<unsigned>(is_struck) << lane;
+        }
+        return lanes & contacts_.record(p).in_problem;
+    }
+
+    /// Returns whether it bears an impact.
+    bool settle_one(std::size_t k, double u_n, const LawOfStep& step)
+    {
+        const ContactGeometry own = contacts_.geometry(k);
+        if (own.kind == ContactKind::impact || own.touch.is_jammed()) return false;
+        const SphereImpacts &a = impacts_[contacts_.a(k)], &b = with_walls_ ? a : impacts_[contacts_.b(k)];
+        const double impact = std::max(a.size, b.size), carried = contacts_.impulse(k).dot(contacts_.normal(k));
+        const double load = step.parts * carried;
+        const bool is_loaded = load >= load_share * impact, was_impact = own.touch.was_impact();
+        const bool parts = was_impact && u_n > touching_gap * step.min_diameter / step.h; // but for rounding
+        // What impacts press on beside them is no load that a contact may count on, but what its spheres bore.
+        const double hands_on = std::max({carried, a.load, b.load});
+        if (!is_loaded && !was_impact)
+            contacts_.set_law(k, ContactKind::deferred, deferred_target(own.gap, u_n, step), -INFINITY, 0.0);
+        else if (parts || (is_loaded && load < light_share * impact))
+            contacts_.set_law(k, ContactKind::bearing, bearing_target(own.gap, u_n, step),
+                static_cast<float>(borne_compression(own.compression, u_n, step)), hands_on);
+        return is_loaded;
+    }
+};
+
+} // namespace
+
+double stand_beside_impacts(ContactNetwork& network, const State& state, const Model& model, const LawOfStep& step)
+{
+    StepContacts& contacts = network.contacts;
+    const auto tiles = static_cast<std::int64_t>(contacts.spheres.size());
+    const auto spheres = [&](std::size_t tile) {
+        return Bystanders(contacts.spheres[tile], false, contacts.impacts, state);
+    };
+    const auto walls = [&](std::size_t tile) {
+        return Bystanders(contacts.walls[tile], true, contacts.impacts, state);
+    };
+    Bystanders pistons(contacts.pistons, true, contacts.impacts, state);
+    double ratio = pistons.settle(step, [&](std::size_t k) {
+        const PistonState& own = state.pistons[static_cast<std::size_t>(model.walls[contacts.pistons.b(k)].piston)];
+        return Vec3(own.velocity + own.spin.cross(contacts.piston_arms[k]));
+    });
+#pragma omp parallel if (tiles > 16)
+    {
+#pragma omp for schedule(dynamic)
+        for (std::int64_t t = 0; t < tiles; ++t) {
+            const auto tile = static_cast<std::size_t>(t);
+            spheres(tile).note_loads();
+        }
+#pragma omp for schedule(dynamic) reduction(max : ratio)
+        for (std::int64_t t = 0; t < tiles; ++t) {
+            const auto tile = static_cast<std::size_t>(t);
+            const TileContacts &between = contacts.spheres[tile], &at_walls = contacts.walls[tile];
+            const double of_spheres =
+                spheres(tile).settle(step, [&](std::size_t k) { return state.motion[between.b(k)].velocity; });
+            const double of_walls = walls(tile).settle(step, [&](std::size_t k) {
+                return at_walls.has_moving_walls()
+                           ? Vec3(at_walls.wall(k).velocity - at_walls.wall(k).gain * at_walls.normal(k))
+                           : Vec3::Zero().eval();
+            });
+            ratio = std::max({ratio, of_spheres, of_walls});
+        }
+    }
+    return ratio;
+}
+
+} // namespace talus
