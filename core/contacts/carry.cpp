@@ -75,9 +75,7 @@ ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, 
         const double u_n = std::min(contacts.contact(k).target - terms.compliance * along, terms.parting);
         const double kappa = compression_after<double>(own.compression, own.gap, u_n, along, own.restitution, law);
         const bool keeps_spring = kappa > touching_gap * law.min_diameter;
-        if (own.kind == ContactKind::resting || own.kind == ContactKind::yielding)
-            outcome.push_out_energy +=
-                push_out_energy<double>(own.compression, own.gap, contacts.contact(k).target, along, law);
+        outcome.push_out_energy += own.push * along;
         if (keeps_spring)
             outcome.stored_energy += spring_energy<double>(kappa, u_n, own.spring, terms.inverse_mass_sum, law);
         carried.contact[own.slot].impulse = (along > own.hands_on ? own.hands_on / along : 1.0) * impulse;

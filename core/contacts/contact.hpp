@@ -57,6 +57,7 @@ struct ContactGeometry {
     float spring = 0.0F;       ///< Σ_n of its spring, also where it is rigid in this step [1/kg]
     float restitution = 0.0F;  ///< e
     float hands_on = INFINITY; ///< normal impulse at most [N s]
+    float push = 0.0F;         ///< what it may put in by pushing out, by its impulse [m/s]
 };
 
 } // namespace talus

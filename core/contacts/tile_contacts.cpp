@@ -63,6 +63,7 @@ void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms
     record.spring[lane] = own.spring;
     record.restitution[lane] = own.restitution;
     record.hands_on[lane] = own.hands_on;
+    record.push[lane] = own.push;
     record.slot[lane] = own.slot;
     record.kind[lane] = own.kind;
     set_touch(k, own.touch);
@@ -116,6 +117,7 @@ void TileContacts::set_law(std::size_t k, ContactKind kind, double target, float
     record.kind[lane] = kind;
     record.compression[lane] = compression;
     record.hands_on[lane] = static_cast<float>(hands_on);
+    record.push[lane] = 0.0F;
 }
 
 void TileContacts::set_rolling(std::size_t k, const RollingRow& row)
@@ -159,7 +161,7 @@ ContactGeometry TileContacts::geometry(std::size_t k) const
     const std::size_t lane = k % pack_size;
     return {record.gap[lane], record.wall_level[lane], record.slot[lane], record.kind[lane],
         std::bit_cast<TouchRecord>(record.touch[lane]), record.compression[lane], record.spring[lane],
-        record.restitution[lane], record.hands_on[lane]};
+        record.restitution[lane], record.hands_on[lane], record.push[lane]};
 }
 
 RollingRow TileContacts::rolling(std::size_t k) const

@@ -118,7 +118,8 @@ private:
                 .compression = static_cast<float>(touch_.compression[lane]),
                 .spring = static_cast<float>(touch_.spring[lane]),
                 .restitution = static_cast<float>(touch_.restitution[lane]),
-                .hands_on = is_impact ? 0.0F : INFINITY});
+                .hands_on = is_impact ? 0.0F : INFINITY,
+                .push = static_cast<float>(touch_.push[lane])});
         if (contacts_.has_moving_walls()) contacts_.set_wall(k, row_[lane]);
         if (contacts_.has_rolling()) {
             const Motion& m = state_.motion[sphere];

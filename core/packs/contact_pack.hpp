@@ -39,6 +39,7 @@ struct alignas(64) RecordPack {
     double wall_level[pack_size];  ///< n·x at which the gap to the wall is zero after the step [m]; at walls
     float compression[pack_size];  ///< κ: what of the overlap a load has pressed [m]; −∞: it will keep none
     float spring[pack_size];       ///< Σ_n of its spring, also where it is rigid in this step [1/kg]
+    float push[pack_size];         ///< what it may put in by pushing out, by its impulse [m/s]
     float restitution[pack_size];  ///< e
     float hands_on[pack_size];     ///< normal impulse at most [N s]
     std::uint32_t slot[pack_size]; ///< where it is kept what it carries

@@ -78,6 +78,7 @@ template <class N> struct NormalLaw {
     N compliance;  ///< Σ_n [1/kg]
     N parting;     ///< at most it asks for [m/s]
     N compression; ///< κ: what a load has pressed, and pushing out [m]
+    N push;        ///< what it may put in by pushing out, by its impulse; that of a spring is in its store [m/s]
     Answer<N> yields;
 };
 
@@ -204,12 +205,17 @@ template <class N> [[gnu::always_inline]] inline N passive_target(const N& push,
     return smaller<N>(push, 2.0 * larger<N>(N{}, push) - u_n);
 }
 
-/// The target of a rigid contact that touches: what sweeps leave undone of its load may not let it sink, so that much
-/// of a parting speed is taken for none. It adds at most λ_n times the slack to the energy, as if it pushed so.
-template <class N> [[gnu::always_inline]] inline N rigid_target(const ContactEvent<N>& event, const LawOfStep& step)
+/// The speed at which an overlap is pushed out [m/s].
+template <class N> [[gnu::always_inline]] inline N push_of(const N& overlap, const LawOfStep& step)
 {
-    const N undone = undone_share * event.inverse_mass_sum * event.load;
-    return smaller<N>(N{}, 2.0 * smaller<N>(N{} + step.push_out_speed, undone) - event.u_n_before);
+    return larger<N>(N{}, smaller<N>(N{} + step.push_out_speed, overlap * (4.0 * upsilon / step.h)));
+}
+
+/// How fast a rigid contact that touches is pushed out beside what it asks for: by what sweeps leave undone of its
+/// load, so that it does not sink.
+template <class N> [[gnu::always_inline]] inline N rigid_push(const ContactEvent<N>& event, const LawOfStep& step)
+{
+    return smaller<N>(push_of<N>(-event.gap, step), undone_share * event.inverse_mass_sum * event.load);
 }
 
 /// How fast a spring parts at most, beyond the speed of pushing out: what was pressed faster than impacts begin comes
@@ -223,10 +229,25 @@ template <class N>
     return larger<N>(step.elastic_speed / 3.0 + pushing + event.restitution * kappa / step.h, -event.u_n_before);
 }
 
-/// The law of a contact where no impact is beside it, METHOD (4).
+/// The law of a contact of `projected`: rigid, but the softer the more it overlaps. What overlaps too much parts by the
+/// feedback of a spring that all of that has pressed, and no faster than it would alone.
 template <class N>
-[[gnu::always_inline]] inline NormalLaw<N> normal_law(
-    const ContactEvent<N>& event, const Answer<N>& impact, const LawOfStep& step)
+[[gnu::always_inline]] inline NormalLaw<N> rigid_law(const ContactEvent<N>& event, const LawOfStep& step)
+{
+    const N none = {}, infinite = none + __builtin_inf();
+    const Answer<N> open = !touches<N>(event.gap, step), yields = -event.gap > elastic_overlap<N>(event, step);
+    const N push = rigid_push<N>(event, step);
+    const N alone = smaller<N>(none, 2.0 * push - event.u_n_before);
+    const N feedback = (-event.gap - rigid_yield_overlap * event.diameter) * (4.0 * upsilon / step.h);
+    return {open ? passive_target<N>(-event.gap / step.h, event.u_n_before) : larger<N>(alone, feedback),
+        open ? none : rigid_compliance<N>(event) / stiffening<N>(event), open ? infinite : alone, none - infinite,
+        open ? none : push, yields};
+}
+
+/// The law of a contact of `matched`: a spring where a load has pressed it. What yields gives way like a spring that
+/// all of its overlap has pressed, and parts no faster than it would alone.
+template <class N>
+[[gnu::always_inline]] inline NormalLaw<N> spring_law(const ContactEvent<N>& event, const LawOfStep& step)
 {
     const N none = {}, infinite = none + __builtin_inf(), least = none + touching_gap * step.min_diameter;
     const N compliance = spring_compliance<N>(event.stiffness, event.inverse_mass_sum, step);
@@ -234,26 +255,30 @@ template <class N>
     const N per_way = 4.0 * upsilon / step.h * share; // of feedback: the speed that it asks for, by κ
 
     const Answer<N> open = event.gap > least, yields = -event.gap > elastic_overlap<N>(event, step);
-    const Answer<N> rests = !(open | yields | impact);
+    const Answer<N> rests = !(open | yields);
     const N before = event.compression > least ? event.compression : none;
     const N kappa = smaller<N>(-event.gap, before + step.h * step.push_out_speed);
-    const Answer<N> is_spring = step.rigid ? Answer<N>{} : rests & (before > 0.0);
+    const Answer<N> is_spring = rests & (before > 0.0),
+                    keeps = is_spring | (rests & (event.u_n_before < least / step.h));
+    const N feedback = per_way * kappa;
     const N pushing = smaller<N>(none + step.push_out_speed, -event.gap * per_way);
-    const N push = open ? -event.gap / step.h : (step.rigid ? none : (yields ? pushing : per_way * kappa));
+    const N passive = passive_target<N>(open ? -event.gap / step.h : (yields ? pushing : feedback), event.u_n_before);
+    return {is_spring ? feedback : (yields ? larger<N>(passive, -event.gap * per_way) : passive),
+        yields ? compliance / stiffening<N>(event) : compliance,
+        yields ? passive : (is_spring ? spring_parting<N>(event, kappa, before, step) : infinite),
+        keeps ? kappa : -infinite, (open | keeps) ? none : push_of<N>(-event.gap, step), yields};
+}
 
-    const N passive = passive_target<N>(push, event.u_n_before);
-    const N alone = is_spring ? push : (step.rigid ? (open ? passive : rigid_target<N>(event, step)) : passive);
-    // What gives way does so like a spring that all of its overlap has pressed, but parts no faster than it would
-    // alone.
-    const Answer<N> gives_way = !(impact | (step.rigid ? open : !yields));
-    const N pressed = -event.gap - (step.rigid ? rigid_yield_overlap * event.diameter : none);
-    const N target = gives_way ? larger<N>(alone, pressed * per_way) : alone;
-    const N soft = (step.rigid ? rigid_compliance<N>(event) : compliance) / stiffening<N>(event);
-    const Answer<N> keeps = step.rigid ? Answer<N>{} : is_spring | (rests & (event.u_n_before < least / step.h));
-    return {impact ? -event.restitution * event.u_n : target,
-        gives_way ? soft : (step.rigid | impact ? none : compliance),
-        gives_way & (target > alone) ? alone : (is_spring ? spring_parting<N>(event, kappa, before, step) : infinite),
-        keeps ? kappa : -infinite, yields & !impact};
+/// The law of a contact where no impact is beside it, METHOD (4).
+template <class N>
+[[gnu::always_inline]] inline NormalLaw<N> normal_law(
+    const ContactEvent<N>& event, const Answer<N>& impact, const LawOfStep& step)
+{
+    const N none = {}, infinite = none + __builtin_inf();
+    const NormalLaw<N> law = step.rigid ? rigid_law<N>(event, step) : spring_law<N>(event, step);
+    return {impact ? -event.restitution * event.u_n : law.target, impact ? none : law.compliance,
+        impact ? infinite : law.parting, impact ? -infinite : law.compression, impact ? none : law.push,
+        law.yields & !impact};
 }
 
 /// A contact that had no load beside an impact of one of its spheres is deferred: it does not close further than to a
@@ -300,15 +325,6 @@ template <class N>
     const N gives_way = fast * larger<N>(N{}, 1.0 / (e * e) - 1.0);
     const N after = kappa - step.h * (u_n + gives_way);
     return ((impulse > 0.0) & (after > 0.0)) ? after : N{};
-}
-
-/// What a contact that has no spring may have put in, pushing out what overlaps [J].
-template <class N>
-[[gnu::always_inline]] inline N push_out_energy(
-    const N& kappa, const N& gap, const N& target, const N& impulse, const LawOfStep& step)
-{
-    const N push = smaller<N>(N{} + step.push_out_speed, -gap * (4.0 * upsilon / step.h));
-    return ((kappa < 0.0) & (target > 0.0)) ? impulse * push : N{};
 }
 
 } // namespace talus

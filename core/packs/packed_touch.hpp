@@ -188,6 +188,7 @@ template <int width>
     put(touch.stored_energy, stored ? energy : (keeps ? pushed_alone : none));
     put(touch.push_out_energy, stored ? energy - energy_before : (keeps ? pushed_alone : none));
     put(touch.spring, spring);
+    put(touch.push, law.push);
     put(touch.impact_size, impact ? impact_size<N>(event) : none);
     store<width>(touch.compression + first, law.compression);
     const F open = event.gap > least;
@@ -249,6 +250,7 @@ template <int width>
     store<width>(record.gap + first, gap);
     store_floats<width>(record.compression + first, load<width>(touch.compression + first));
     store_floats<width>(record.spring + first, load<width>(touch.spring + first));
+    store_floats<width>(record.push + first, load<width>(touch.push + first));
     store_floats<width>(record.restitution + first, load<width>(touch.restitution + first));
     store_floats<width>(record.hands_on + first, kind == std::int64_t{2} ? none : none + __builtin_inf());
     narrow<width>(reinterpret_cast<std::uint8_t*>(record.kind) + first, within_reach & kind);
@@ -297,15 +299,13 @@ HandedOn hand_on(const ContactPack& contact, RecordPack& record, const LawOfStep
         const N kappa = compression_after<N>(load_floats<width>(record.compression + first), gap, u_n, along,
             load_floats<width>(record.restitution + first), law);
         const N energy = spring_energy<N>(kappa, u_n, spring, w, law);
-        const N pushed = push_out_energy<N>(
-            load_floats<width>(record.compression + first), gap, load<width>(contact.target + first), along, law);
+        const N pushed = load_floats<width>(record.push + first) * along;
         const F kind = widened<width>(reinterpret_cast<const std::uint8_t*>(record.kind) + first);
-        const F may_push = (kind == std::int64_t{0}) | (kind == std::int64_t{3});
         const F keeps_spring = kappa > touching_gap * law.min_diameter;
         for (int lane = 0; lane < width; ++lane) {
             handed.cone_violation = handed.cone_violation < excess[lane] ? excess[lane] : handed.cone_violation;
             handed.stored_energy += keeps_spring[lane] ? energy[lane] : 0.0;
-            handed.push_out_energy += may_push[lane] ? pushed[lane] : 0.0;
+            handed.push_out_energy += pushed[lane];
         }
 
         const N most = load_floats<width>(record.hands_on + first);
