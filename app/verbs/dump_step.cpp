@@ -92,9 +92,8 @@ ExitCode dump_step(const CommandLine& line)
         "Talus {}, contact problem of the step of {:.6g} s from t = {:.9g} s on, seed {}; SI units, impulses in N s. "
         "Bodies: the spheres by id with (v, r omega), pistons with (v, omega), then one for each compliance. Guess 1 "
         "has the impulses carried over from the step before. Contacts come in the order of the run's sweeps, which are "
-        "those of: talus solve {}; after them come {} without friction, by which compliant ones part no faster than "
-        "they "
-        "may.",
+        "those of: talus solve {}; after them come {} without friction, which keep compliant ones from parting faster "
+        "than they may.",
         TALUS_VERSION, simulation.model.time_step, simulation.state.time, opened.scene.seed, as_run,
         file.contacts() - static_cast<Eigen::Index>(step.contacts.size()));
     file.origin = origin_of(step, simulation.state);

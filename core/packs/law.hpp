@@ -169,11 +169,12 @@ template <class N> [[gnu::always_inline]] inline N elastic_overlap(const Contact
 }
 
 /// Σ_n of a rigid contact: so small where it is shallow that nobody sees it, but where walls leave too little room,
-/// impulses that no velocity obeys do not grow with every sweep.
+/// impulses that no velocity obeys do not grow with every sweep. What W + Σ rounds away is 0.
 template <class N> [[gnu::always_inline]] inline N rigid_compliance(const ContactEvent<N>& event)
 {
     const N part = smaller<N>(N{} + 1.0, -event.gap / (rigid_yield_overlap * event.diameter)), square = part * part;
-    return rigid_softness * square * square * event.inverse_mass_sum;
+    const N w = event.inverse_mass_sum;
+    return w + rigid_softness * square * square * w - w;
 }
 
 /// How many times stiffer a contact is that yields: none is as deep as the centre of its smaller sphere.
@@ -281,8 +282,8 @@ template <class N>
         law.yields & !impact};
 }
 
-/// A contact that had no load beside an impact of one of its spheres is deferred: it does not close further than to a
-/// quarter of a diameter, and in the next step it is an impact of its own.
+/// A contact that had no load beside an impact of one of its spheres is deferred: it does not close further than to
+/// `deferred_overlap`, and in the next step it is an impact of its own.
 inline double deferred_target(double gap, double u_n, const LawOfStep& step)
 {
     return smaller(-(gap + deferred_overlap * step.min_diameter) / step.h, -u_n);
@@ -312,7 +313,15 @@ template <class N> [[gnu::always_inline]] inline N taken_over(const N& handed, c
     return handed > 0.0 ? handed - 0.5 * step.h * u_n : N{};
 }
 
-/// κ of a spring after a step, which its impulse tells: q_n − Σ_n λ_n is u_n. What was compressed faster than impacts
+/// The u_n⁺ that the impulse of a solved row tells [m/s].
+template <class N>
+[[gnu::always_inline]] inline N told_velocity(
+    const N& target, const N& compliance, const N& parting, const N& impulse)
+{
+    return smaller<N>(target - compliance * impulse, parting);
+}
+
+/// κ of a spring after a step. What was compressed faster than impacts
 /// begin, e has a part in: it gives way 1/e² as fast (Walton & Braun 1986); pushing out is no part of that speed.
 /// @param gap at the beginning of the step [m]
 template <class N>
