@@ -74,7 +74,7 @@ private:
     bool settle_one(std::size_t k, double u_n, const LawOfStep& step)
     {
         const ContactGeometry own = contacts_.geometry(k);
-        if (own.kind == ContactKind::impact || own.touch.is_jammed()) return false;
+        if (own.kind == ContactKind::impact) return false;
         const SphereImpacts &a = impacts_[contacts_.a(k)], &b = with_walls_ ? a : impacts_[contacts_.b(k)];
         const double impact = std::max(a.size, b.size), carried = contacts_.impulse(k).dot(contacts_.normal(k));
         const double load = step.parts * carried;

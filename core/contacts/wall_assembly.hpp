@@ -54,7 +54,6 @@ public:
         touch_.compression[lane] = carried.compression;
         touch_.struck[lane] = -static_cast<std::int64_t>(carried.touch.was_impact());
         touch_.pushed[lane] = -static_cast<std::int64_t>(carried.touch.was_open());
-        touch_.jammed[lane] = -static_cast<std::int64_t>(carried.touch.is_jammed());
         touch_.gap[lane] = at.gap;
         touch_.diameter[lane] = 2.0 * state_.radius(at.sphere);
         touch_.reduced_radius[lane] = state_.radius(at.sphere);

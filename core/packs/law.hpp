@@ -37,9 +37,9 @@ inline constexpr double light_share = 0.1;
 /// (Hertz).
 inline constexpr double yield_overlap = 0.25;
 inline constexpr double fast_yield_overlap = 0.1;
-/// What yields and cannot part, deeper than this, has jammed: it yields until it is shallower than the second; in
-/// smallest diameters.
-inline constexpr double jamming_overlap = 0.02;
+/// What yields and comes deeper for many steps, or is deeper than this, has jammed, until it is shallower than the
+/// second; in smallest diameters.
+inline constexpr double jamming_overlap = 0.15;
 inline constexpr double jammed_overlap = 0.01;
 
 /// Rigid contacts get softer with the fourth power of their overlap, up to this, in diameters of the smaller sphere,
@@ -96,7 +96,6 @@ template <class N> struct ContactEvent {
     N load;             ///< λ_n that the step before would have had, had it been whole [N s] …
     N compression;      ///< … and the κ that it has left [m]
     Answer<N> struck;   ///< it was an impact then
-    Answer<N> jammed;   ///< it had jammed
 };
 
 template <class N> [[gnu::always_inline]] inline N smaller(const N& a, const N& b)
@@ -164,8 +163,7 @@ template <class N> [[gnu::always_inline]] inline N elastic_overlap(const Contact
 {
     const Answer<N> is_fast = event.u_n_before < N{} - step.elastic_speed;
     const N begins = event.reduced_radius * (is_fast ? N{} + fast_yield_overlap : N{} + yield_overlap);
-    const N bounded = event.jammed ? N{} + jammed_overlap * step.min_diameter : begins;
-    return step.rigid ? rigid_yield_overlap * event.diameter : bounded;
+    return step.rigid ? rigid_yield_overlap * event.diameter : begins;
 }
 
 /// Σ_n of a rigid contact: so small where it is shallow that nobody sees it, but where walls leave too little room,
@@ -315,8 +313,7 @@ template <class N> [[gnu::always_inline]] inline N taken_over(const N& handed, c
 
 /// The u_n⁺ that the impulse of a solved row tells [m/s].
 template <class N>
-[[gnu::always_inline]] inline N told_velocity(
-    const N& target, const N& compliance, const N& parting, const N& impulse)
+[[gnu::always_inline]] inline N told_velocity(const N& target, const N& compliance, const N& parting, const N& impulse)
 {
     return smaller<N>(target - compliance * impulse, parting);
 }

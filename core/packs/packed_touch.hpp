@@ -160,7 +160,7 @@ template <int width>
         number(touch.u_n), number(touch.u_n_before), number(touch.closes), w, number(touch.restitution),
         number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts,
         taken_over<N>(number(touch.compression), number(touch.u_n_before), step.law),
-        load_flags<width>(touch.struck + first), load_flags<width>(touch.jammed + first)};
+        load_flags<width>(touch.struck + first)};
     const F closes = is_impact<N>(event, step.law), impact = closes & within_reach;
     const NormalLaw<N> law = normal_law<N>(event, impact, step.law);
     const Vector<width> warm = warm_impulse<width>(carried, normal, number(contact.friction), impact);
@@ -223,9 +223,9 @@ template <int width>
     const auto carried = CarriedRecords<width>::gather(slot, spheres.carried);
     carried.impulse.store(touch.carried, first);
     store<width>(touch.compression + first, carried.compression);
-    store<width>(touch.struck + first, carried.touch == std::int64_t{2});
-    store<width>(touch.pushed + first, carried.touch == std::int64_t{5});
-    store<width>(touch.jammed + first, (carried.touch == std::int64_t{3}) | (carried.touch == std::int64_t{4}));
+    const Flags<width> last = carried.touch & std::int64_t{3}; // TouchRecord
+    store<width>(touch.struck + first, last == std::int64_t{2});
+    store<width>(touch.pushed + first, last == std::int64_t{3});
     narrow<width>(record.touch + first, carried.touch);
 }
 
@@ -312,7 +312,7 @@ HandedOn hand_on(const ContactPack& contact, RecordPack& record, const LawOfStep
         const N share = along > most ? most / along : none + 1.0;
         const F is_deep = -gap > none + jammed_overlap * law.min_diameter;
         const F now =
-            (along > 0.0) & (kind == std::int64_t{2} ? F{} + 2 : (kind == std::int64_t{1} ? F{} + 5 : F{} + 1));
+            (along > 0.0) & (kind == std::int64_t{2} ? F{} + 2 : (kind == std::int64_t{1} ? F{} + 3 : F{} + 1));
         const F touch = is_deep ? widened<width>(record.touch + first) : now;
         narrow<width>(record.touch + first, touch);
         handed.deep_lanes |= bits<width>(is_deep) << first;

@@ -33,7 +33,6 @@ struct alignas(64) TouchPack {
     double compression[pack_size];    ///< … its κ, and then that of this step [m]
     std::int64_t struck[pack_size];   ///< … it was an impact: −1 for yes, 0 for no
     std::int64_t pushed[pack_size];   ///< … it had a gap: −1 for yes, 0 for no
-    std::int64_t jammed[pack_size];   ///< … it had jammed
 
     std::int64_t kind[pack_size];      ///< made: ContactKind …
     double spring[pack_size];          ///< … Σ_n of its spring [1/kg]

@@ -26,6 +26,26 @@ template <class Use> void for_each_sphere_contact(const ContactNetwork& network,
         for (const std::size_t k : contacts.indices()) use(contacts.contact(k), contacts.geometry(k));
 }
 
+/// Every contact of the group is part of it from now on, so that no other of them tells it again.
+/// @param belongs whether a contact does
+template <class Belongs> void note_told(ContactNetwork& network, Belongs&& belongs)
+{
+    const auto note_all = [&](TileContacts& contacts, CarriedImpulses& carried) {
+        for (const std::size_t k : contacts.indices()) {
+            TouchRecord touch = contacts.geometry(k).touch;
+            if (!belongs(contacts.contact(k), contacts.geometry(k)) || touch.is_newly_jammed()) continue;
+            touch.note_told();
+            contacts.set_touch(k, touch);
+            carried.contact[contacts.geometry(k).slot].touch = touch;
+        }
+    };
+    for (std::size_t t = 0; t < network.contacts.spheres.size(); ++t) {
+        note_all(network.contacts.spheres[t], network.list.tiles.tiles[t].carried);
+        note_all(network.contacts.walls[t], network.carried.walls);
+    }
+    note_all(network.contacts.pistons, network.carried.walls);
+}
+
 template <class Use> void for_each_wall_contact(const ContactNetwork& network, Use&& use)
 {
     const auto use_all = [&](const TileContacts& contacts) {
@@ -46,7 +66,7 @@ struct Press {
 
 } // namespace
 
-std::vector<Incident> find_presses(const ContactNetwork& network, const State& state, const Model& model)
+std::vector<Incident> find_presses(ContactNetwork& network, const State& state, const Model& model)
 {
     const auto is_deep = [&](const ContactGeometry& g) { return -g.gap > joining_overlap * model.min_diameter; };
     DisjointSets groups(state.count());
@@ -71,6 +91,10 @@ std::vector<Incident> find_presses(const ContactNetwork& network, const State& s
     });
     for_each_wall_contact(network, [&](const Contact& c, const ContactGeometry& g) {
         if (is_deep(g)) add(c, g).walls.insert(c.b);
+    });
+
+    note_told(network, [&](const Contact& c, const ContactGeometry& g) {
+        return is_deep(g) && presses.at(groups.first_of_set(static_cast<std::size_t>(c.a))).is_new;
     });
 
     std::vector<Incident> incidents;

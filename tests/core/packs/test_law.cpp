@@ -39,7 +39,7 @@ LawOfStep rigid()
 /// A contact with W = 2/kg and e = 0.4 between rigid spheres.
 ContactEvent<double> event(double gap, double u_n, double load = 0.0, double compression = 0.0)
 {
-    return {gap, d, 0.25 * d, u_n, u_n, nowhere, w, 0.4, infinity, load, compression, false, false};
+    return {gap, d, 0.25 * d, u_n, u_n, nowhere, w, 0.4, infinity, load, compression, false};
 }
 
 /// Σ_n of that contact.
@@ -285,18 +285,6 @@ TEST_CASE("a deep contact yields: it bears as a spring that all of its overlap h
     const auto of_rigid = law_of(event(-0.375 * d, -0.1), rigid());
     CHECK(of_rigid.compliance == Approx(sigma / 4.0));
     CHECK(of_rigid.parting == 0.0);
-}
-
-TEST_CASE("what has jammed yields until it is shallow", "[law][stabilisation][press]")
-{
-    const auto yields = [](double overlap, bool jammed) {
-        ContactEvent<double> at = event(-overlap, -1e-9);
-        at.jammed = jammed;
-        return law_of(at, matched()).yields;
-    };
-    CHECK(yields((jammed_overlap + 1e-9) * d, true));
-    CHECK_FALSE(yields((jammed_overlap - 1e-9) * d, true));
-    CHECK_FALSE(yields((jammed_overlap + 1e-9) * d, false));
 }
 
 TEST_CASE("springs of a split step bear at rest what those of the whole step would", "[law][stabilisation][sub_steps]")

@@ -65,7 +65,7 @@ struct Touches {
             for (int d = 0; d < 3; ++d) own.impulse[d] = size * number(-1, 1);
             own.compression = static_cast<float>(number(0, 0.1 * radius));
             own.touch.note_load(true);
-            if (is_jammed(lane)) own.touch.note_yield(true);
+            if (is_jammed(lane)) own.touch.note_told();
             if (had_gap(lane)) own.touch.note_closing();
         }
     }
@@ -244,7 +244,7 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
             closing_time<double>(
                 -across.dot(velocity), velocity.squaredNorm(), across.squaredNorm() - 4 * radius * radius, root),
             w, pair.restitution, pair.stiffness, Touches::had_gap(lane) ? 0.0 : step.parts * carried_along,
-            taken_over<double>(own.compression, u_n, step), Touches::was_struck(lane), Touches::is_jammed(lane)};
+            taken_over<double>(own.compression, u_n, step), Touches::was_struck(lane)};
         const bool impact = is_impact<double>(event, step), open = gap > touching_gap * 2 * radius;
         const double spring = spring_compliance<double>(pair.stiffness, w, step);
         const bool yields = -gap > elastic_overlap<double>(event, step);

@@ -39,46 +39,35 @@ int incidents_in(World& world, int steps)
 
 } // namespace
 
-TEST_CASE("a contact that yields is jammed once it has had all that it bears, until it yields no more", "[press]")
+TEST_CASE("a contact that yields is jammed once it comes deeper and deeper, until it yields no more", "[press]")
 {
     TouchRecord touch;
-    if (GENERATE(true, false)) touch.note_impact();
-    for (int k = 0; k < 3; ++k) { // it yields, and bears what there is
-        touch.note_yield(false);
-        CHECK(touch.is_loaded());
+    touch.note_impact();
+    for (int k = 0; k < 300; ++k) { // it yields, and bears what there is
+        touch.note_yield(k % 2 == 0, false);
         CHECK_FALSE(touch.is_jammed());
-        CHECK_FALSE(touch.was_impact());
     }
-    touch.note_yield(true);
-    CHECK(touch.is_loaded());
-    CHECK(touch.is_jammed());
+    touch.note_yield(true, false);
+    if (GENERATE(true, false)) {
+        touch.note_yield(true, true); // twice on end, and deep
+    } else {
+        for (int k = 1; k < 60; ++k) {
+            CHECK_FALSE(touch.is_jammed());
+            touch.note_yield(true, false);
+        }
+    }
     CHECK(touch.is_newly_jammed());
     for (int k = 0; k < 300; ++k) { // as long as it is deep, whatever it bears: it is told once
-        touch.note_yield(k % 3 == 0);
-        CHECK(touch.is_loaded());
+        touch.note_yield(k % 3 == 0, k % 2 == 0);
         CHECK(touch.is_jammed());
         CHECK_FALSE(touch.is_newly_jammed());
     }
-    SECTION("shallow, and still loaded")
-    {
-        touch.note_load(true);
-    }
-    SECTION("shallow, and closing a gap")
-    {
-        touch.note_closing();
-    }
-    SECTION("shallow, and an impact")
-    {
-        touch.note_impact();
-    }
-    SECTION("apart")
-    {
-        touch.note_load(false);
-    }
+    CHECK(touch.was_impact()); // which is another matter
+    touch.note_hold();
     CHECK_FALSE(touch.is_jammed());
-    touch.note_yield(false);
+    touch.note_yield(true, true);
     CHECK_FALSE(touch.is_jammed());
-    touch.note_yield(true); // then it can come to be so anew
+    touch.note_yield(true, true); // then it can come to be so anew
     CHECK(touch.is_newly_jammed());
 }
 
