@@ -15,7 +15,7 @@ namespace talus
 ///
 /// Walls that move as told may ask for what rigid bodies cannot do: a press that closes on a sphere. Then no velocity
 /// obeys all contacts; those that overlap deeply yield (law.hpp), and one that yields and comes deeper and deeper has
-/// *jammed*, until it overlaps less. Nothing hangs on that but what is told.
+/// *jammed*, until it overlaps less. Nothing hangs on that but what is reported.
 class TouchRecord
 {
 public:
@@ -39,12 +39,12 @@ public:
     {
         const int steps = std::max(0, pressed() + (deepens ? 1 : -1));
         if (is_jammed())
-            note_told();
+            note_known();
         else
             set(last(), deepens && is_deep && steps > 1 ? newly_jammed : steps);
     }
-    /// It is part of a press that has been told.
-    void note_told() { set(last(), newly_jammed + 1); }
+    /// Its press is known: it is not reported again.
+    void note_known() { set(last(), newly_jammed + 1); }
 
 private:
     static constexpr int newly_jammed = 60; ///< a blade grips grains for half as many steps, and lets them go

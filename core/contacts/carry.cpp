@@ -28,7 +28,7 @@ TouchRecord noted(const TileContacts& contacts, std::size_t k, const LawOfStep& 
         touch.note_load(along > 0.0 || geometry.kind == ContactKind::yielding);
     if (geometry.kind == ContactKind::yielding || (touch.is_jammed() && overlap > jammed_overlap))
         touch.note_yield(
-            along > 0.0 && told_velocity(contacts.contact(k).target, terms.compliance, terms.parting, along) < 0.0,
+            along > 0.0 && solved_velocity(contacts.contact(k).target, terms.compliance, terms.parting, along) < 0.0,
             overlap > jamming_overlap);
     else
         touch.note_hold();
@@ -75,7 +75,7 @@ ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, 
         if (touch.is_newly_jammed()) ++outcome.newly_jammed;
 
         const ContactGeometry own = contacts.geometry(k);
-        const double u_n = told_velocity<double>(contacts.contact(k).target, terms.compliance, terms.parting, along);
+        const double u_n = solved_velocity<double>(contacts.contact(k).target, terms.compliance, terms.parting, along);
         const double kappa = compression_after<double>(own.compression, own.gap, u_n, along, own.restitution, law);
         const bool keeps_spring = kappa > touching_gap * law.min_diameter;
         outcome.push_out_energy += own.push * along;

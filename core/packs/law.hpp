@@ -37,8 +37,8 @@ inline constexpr double light_share = 0.1;
 /// (Hertz).
 inline constexpr double yield_overlap = 0.25;
 inline constexpr double fast_yield_overlap = 0.1;
-/// What yields and comes deeper for many steps, or is deeper than this, has jammed, until it is shallower than the
-/// second; in smallest diameters.
+/// For reports alone: what yields and comes deeper for many steps, or is deeper than this, has jammed, until it is
+/// shallower than the second; in smallest diameters.
 inline constexpr double jamming_overlap = 0.15;
 inline constexpr double jammed_overlap = 0.01;
 
@@ -234,10 +234,11 @@ template <class N>
 [[gnu::always_inline]] inline NormalLaw<N> rigid_law(const ContactEvent<N>& event, const LawOfStep& step)
 {
     const N none = {}, infinite = none + __builtin_inf();
-    const Answer<N> open = !touches<N>(event.gap, step), yields = -event.gap > elastic_overlap<N>(event, step);
+    const N most = elastic_overlap<N>(event, step);
+    const Answer<N> open = !touches<N>(event.gap, step), yields = -event.gap > most;
     const N push = rigid_push<N>(event, step);
     const N alone = smaller<N>(none, 2.0 * push - event.u_n_before);
-    const N feedback = (-event.gap - rigid_yield_overlap * event.diameter) * (4.0 * upsilon / step.h);
+    const N feedback = (-event.gap - most) * (4.0 * upsilon / step.h);
     return {open ? passive_target<N>(-event.gap / step.h, event.u_n_before) : larger<N>(alone, feedback),
         open ? none : rigid_compliance<N>(event) / stiffening<N>(event), open ? infinite : alone, none - infinite,
         open ? none : push, yields};
@@ -311,15 +312,16 @@ template <class N> [[gnu::always_inline]] inline N taken_over(const N& handed, c
     return handed > 0.0 ? handed - 0.5 * step.h * u_n : N{};
 }
 
-/// The u_n⁺ that the impulse of a solved row tells [m/s].
+/// u_n⁺ of a solved row, by its impulse [m/s].
 template <class N>
-[[gnu::always_inline]] inline N told_velocity(const N& target, const N& compliance, const N& parting, const N& impulse)
+[[gnu::always_inline]] inline N solved_velocity(
+    const N& target, const N& compliance, const N& parting, const N& impulse)
 {
     return smaller<N>(target - compliance * impulse, parting);
 }
 
-/// κ of a spring after a step. What was compressed faster than impacts
-/// begin, e has a part in: it gives way 1/e² as fast (Walton & Braun 1986); pushing out is no part of that speed.
+/// κ of a spring after a step. What was compressed faster than impacts begin, e has a part in: it gives way 1/e² as
+/// fast (Walton & Braun 1986); pushing out is no part of that speed.
 /// @param gap at the beginning of the step [m]
 template <class N>
 [[gnu::always_inline]] inline N compression_after(

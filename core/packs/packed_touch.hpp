@@ -293,7 +293,7 @@ HandedOn hand_on(const ContactPack& contact, RecordPack& record, const LawOfStep
         const N excess = root<width>(tangent.dot(tangent)) - load<width>(contact.friction + first) * along;
 
         const N spring = load_floats<width>(record.spring + first), w = load<width>(contact.inverse_mass_sum + first);
-        const N u_n = told_velocity<N>(load<width>(contact.target + first), load<width>(contact.compliance + first),
+        const N u_n = solved_velocity<N>(load<width>(contact.target + first), load<width>(contact.compliance + first),
             load<width>(contact.parting + first), along);
         const N gap = load<width>(record.gap + first);
         const N kappa = compression_after<N>(load_floats<width>(record.compression + first), gap, u_n, along,

@@ -22,7 +22,7 @@ template <bool wall, class R> void measure_power(Load& load, const WholeContact&
     const auto& [c, terms, rolling, at_wall] = own;
     const Vec3 u = contact_velocity<wall, R>(own, motion);
     const double normal_impulse = c.impulse.dot(c.normal);
-    const double asked = told_velocity(c.target, terms.compliance, terms.parting, normal_impulse);
+    const double asked = solved_velocity(c.target, terms.compliance, terms.parting, normal_impulse);
     load.power = normal_impulse * (u.dot(c.normal) - asked);
     load.unsliding = load.power;
     if constexpr (R::friction) {

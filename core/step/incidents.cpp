@@ -26,15 +26,24 @@ template <class Use> void for_each_sphere_contact(const ContactNetwork& network,
         for (const std::size_t k : contacts.indices()) use(contacts.contact(k), contacts.geometry(k));
 }
 
-/// Every contact of the group is part of it from now on, so that no other of them tells it again.
+template <class Use> void for_each_wall_contact(const ContactNetwork& network, Use&& use)
+{
+    const auto use_all = [&](const TileContacts& contacts) {
+        for (const std::size_t k : contacts.indices()) use(contacts.contact(k), contacts.geometry(k));
+    };
+    for (const TileContacts& contacts : network.contacts.walls) use_all(contacts);
+    use_all(network.contacts.pistons);
+}
+
+/// Every contact of a press is known to be in it from now on, so that it is reported once.
 /// @param belongs whether a contact does
-template <class Belongs> void note_told(ContactNetwork& network, Belongs&& belongs)
+template <class Belongs> void note_known(ContactNetwork& network, Belongs&& belongs)
 {
     const auto note_all = [&](TileContacts& contacts, CarriedImpulses& carried) {
         for (const std::size_t k : contacts.indices()) {
             TouchRecord touch = contacts.geometry(k).touch;
             if (!belongs(contacts.contact(k), contacts.geometry(k)) || touch.is_newly_jammed()) continue;
-            touch.note_told();
+            touch.note_known();
             contacts.set_touch(k, touch);
             carried.contact[contacts.geometry(k).slot].touch = touch;
         }
@@ -44,15 +53,6 @@ template <class Belongs> void note_told(ContactNetwork& network, Belongs&& belon
         note_all(network.contacts.walls[t], network.carried.walls);
     }
     note_all(network.contacts.pistons, network.carried.walls);
-}
-
-template <class Use> void for_each_wall_contact(const ContactNetwork& network, Use&& use)
-{
-    const auto use_all = [&](const TileContacts& contacts) {
-        for (const std::size_t k : contacts.indices()) use(contacts.contact(k), contacts.geometry(k));
-    };
-    for (const TileContacts& contacts : network.contacts.walls) use_all(contacts);
-    use_all(network.contacts.pistons);
 }
 
 /// What is known of a group.
@@ -93,7 +93,7 @@ std::vector<Incident> find_presses(ContactNetwork& network, const State& state, 
         if (is_deep(g)) add(c, g).walls.insert(c.b);
     });
 
-    note_told(network, [&](const Contact& c, const ContactGeometry& g) {
+    note_known(network, [&](const Contact& c, const ContactGeometry& g) {
         return is_deep(g) && presses.at(groups.first_of_set(static_cast<std::size_t>(c.a))).is_new;
     });
 

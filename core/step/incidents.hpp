@@ -32,9 +32,9 @@ struct Incident {
 };
 
 /// An incident for each group of bodies that contacts join together which overlap by a thousandth of the smallest
-/// diameter, where a wall is that moves as told, a contact came to be jammed in this step, and none was before. Notes at
-/// their contacts that it has been told.
-std::vector<Incident> find_presses( ContactNetwork& network, const State& state, const Model& model);
+/// diameter, where a wall is that moves as told, a contact came to be jammed in this step, and none was before. Their
+/// contacts note that it is known.
+std::vector<Incident> find_presses(ContactNetwork& network, const State& state, const Model& model);
 
 /// An incident for each wall that has just appeared and overlaps spheres by more than 0.05 of the smallest diameter.
 /// @pre what contacts carry is still that of the step before

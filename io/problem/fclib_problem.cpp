@@ -89,12 +89,16 @@ Eigen::SparseMatrix<double> matrix_of(const Entries& entries, Index rows, Index 
     return matrix;
 }
 
+void set_form(FclibProblem& file, bool rolls)
+{
+    file.form = rolls ? FclibForm::global_rolling : FclibForm::global;
+    file.rows_per_contact = rolls ? 5 : 3;
+}
+
 void set_friction(FclibProblem& file, const std::vector<Constraint>& contacts, std::size_t stops)
 {
     const auto count = static_cast<Index>(contacts.size());
-    const bool rolls = !contacts.empty() && contacts.front().rolls();
-    file.form = rolls ? FclibForm::global_rolling : FclibForm::global;
-    file.rows_per_contact = rolls ? 5 : 3;
+    const bool rolls = file.form == FclibForm::global_rolling;
     file.mu = VectorXd::Zero(count + static_cast<Index>(stops));
     file.mu_r = VectorXd::Zero(rolls ? file.mu.size() : 0);
     for (Index k = 0; k < count; ++k) {
@@ -117,52 +121,69 @@ struct Stop {
     double least;
 };
 
-/// M with a body for each compliance, H without stops, and G.
-std::vector<Stop> set_matrices(FclibProblem& file, const multibody::Problem& problem, Index contact_rows)
+/// The degree of freedom of the body that each row's compliance becomes; −1 where it has none.
+std::vector<Index> springs_of(const multibody::Problem& problem, Index contact_rows)
 {
-    Entries M, transposed_jacobian;
-    for (std::size_t b = 0; b < problem.body_count(); ++b)
-        add_block(M, problem.first_dof(b), problem.first_dof(b), problem.mass(b));
-    for (std::size_t k = 0; k < problem.constraints().size(); ++k)
-        for (std::size_t i = problem.first_block(k); i < problem.first_block(k + 1); ++i)
-            add_block(transposed_jacobian, problem.first_dof(problem.body_of_block(i)),
-                problem.constraints()[k].first_row, problem.jacobian(i).transpose());
-    Index dofs = problem.dofs();
-    std::vector<Index> body_of_row(static_cast<std::size_t>(contact_rows), -1);
-    for (Index row = 0; row < contact_rows; ++row) {
-        const double compliance = problem.compliance()[row];
-        if (compliance == 0.0) continue;
-        add_block(M, dofs, dofs, Eigen::MatrixXd::Constant(1, 1, 1.0 / compliance));
-        add_block(transposed_jacobian, dofs, row, Eigen::MatrixXd::Ones(1, 1));
-        body_of_row[static_cast<std::size_t>(row)] = dofs++;
-    }
-    file.M = matrix_of(M, dofs, dofs);
-    const auto all_rows = matrix_of(transposed_jacobian, dofs, problem.rows());
-    file.H = all_rows.leftCols(contact_rows);
-    file.G = all_rows.rightCols(problem.rows() - contact_rows);
+    std::vector<Index> springs(static_cast<std::size_t>(contact_rows), -1);
+    for (Index row = 0, next = problem.dofs(); row < contact_rows; ++row)
+        if (problem.compliance()[row] != 0.0) springs[static_cast<std::size_t>(row)] = next++;
+    return springs;
+}
 
+std::vector<Stop> stops_of(const std::vector<Constraint>& contacts, const std::vector<Index>& springs)
+{
     std::vector<Stop> stops;
-    for (const Constraint& contact : contacts_in(problem)) {
-        const Index body = body_of_row[static_cast<std::size_t>(contact.first_row)];
+    for (const Constraint& contact : contacts) {
+        const Index body = springs[static_cast<std::size_t>(contact.first_row)];
         if (body >= 0 && contact.headroom < 0.0) stops.push_back({body, contact.first_row, -contact.headroom});
     }
     return stops;
 }
 
-/// Their columns of H behind the others, and what they ask for.
-void add_stops(FclibProblem& file, const std::vector<Stop>& stops)
+/// M with a body for each compliance, H with the stops behind the contacts, and G.
+void set_matrices(FclibProblem& file, const multibody::Problem& problem, const std::vector<Index>& springs,
+    const std::vector<Stop>& stops)
 {
-    Entries H;
-    for (Index column = 0; column < file.H.cols(); ++column)
-        for (Eigen::SparseMatrix<double>::InnerIterator entry(file.H, column); entry; ++entry)
-            H.emplace_back(entry.row(), column, entry.value());
-    const Index before = file.H.cols(), rows = file.rows_per_contact;
-    file.w.conservativeResizeLike(VectorXd::Zero(before + rows * static_cast<Index>(stops.size())));
-    for (Index k = 0; const Stop& stop : stops) {
-        H.emplace_back(stop.body, before + rows * k, 1.0);
-        file.w[before + rows * k++] = -stop.least;
+    const auto contact_rows = static_cast<Index>(springs.size());
+    const Index stop_rows = file.rows_per_contact * static_cast<Index>(stops.size());
+    Entries M, transposed_jacobian;
+    for (std::size_t b = 0; b < problem.body_count(); ++b)
+        add_block(M, problem.first_dof(b), problem.first_dof(b), problem.mass(b));
+    for (std::size_t k = 0; k < problem.constraints().size(); ++k) {
+        const Index row = problem.constraints()[k].first_row, column = row < contact_rows ? row : row + stop_rows;
+        for (std::size_t i = problem.first_block(k); i < problem.first_block(k + 1); ++i)
+            add_block(transposed_jacobian, problem.first_dof(problem.body_of_block(i)), column,
+                problem.jacobian(i).transpose());
     }
-    file.H = matrix_of(H, file.H.rows(), file.w.size());
+    Index dofs = problem.dofs();
+    for (Index row = 0; row < contact_rows; ++row) {
+        const Index body = springs[static_cast<std::size_t>(row)];
+        if (body < 0) continue;
+        M.emplace_back(body, body, 1.0 / problem.compliance()[row]);
+        transposed_jacobian.emplace_back(body, row, 1.0);
+        ++dofs;
+    }
+    for (Index column = contact_rows; const Stop& stop : stops) {
+        transposed_jacobian.emplace_back(stop.body, column, 1.0);
+        column += file.rows_per_contact;
+    }
+    file.M = matrix_of(M, dofs, dofs);
+    const auto all_rows = matrix_of(transposed_jacobian, dofs, problem.rows() + stop_rows);
+    file.H = all_rows.leftCols(contact_rows + stop_rows);
+    file.G = all_rows.rightCols(problem.rows() - contact_rows);
+}
+
+/// What contacts ask for, and then stops.
+VectorXd offsets_of(const FclibProblem& file, const multibody::Problem& problem,
+    const std::vector<Constraint>& contacts, const std::vector<Stop>& stops)
+{
+    VectorXd w = VectorXd::Zero(file.contact_rows());
+    const Index rows = file.rows_per_contact, before = rows * static_cast<Index>(contacts.size());
+    w.head(before) = -problem.target().head(before);
+    for (const Constraint& contact : contacts) // one that is rigid asks for the lesser of the two
+        if (problem.compliance()[contact.first_row] == 0.0) w[contact.first_row] -= std::min(0.0, contact.headroom);
+    for (Index k = 0; const Stop& stop : stops) w[before + rows * k++] = -stop.least;
+    return w;
 }
 
 /// λ⁰, and what the stops add to the springs' impulses.
@@ -202,19 +223,17 @@ FclibProblem to_fclib(const multibody::Problem& problem, const VectorXd& impulse
 {
     FclibProblem file;
     const std::vector<Constraint> contacts = contacts_in(problem);
-    const bool rolls = !contacts.empty() && contacts.front().rolls();
-    const Index contact_rows = (rolls ? 5 : 3) * static_cast<Index>(contacts.size());
-    const std::vector<Stop> stops = set_matrices(file, problem, contact_rows);
+    set_form(file, !contacts.empty() && contacts.front().rolls());
+    const Index contact_rows = file.rows_per_contact * static_cast<Index>(contacts.size());
+    const std::vector<Index> springs = springs_of(problem, contact_rows);
+    const std::vector<Stop> stops = stops_of(contacts, springs);
+    set_matrices(file, problem, springs, stops);
     set_friction(file, contacts, stops.size());
     file.f = VectorXd::Zero(file.M.rows());
     for (std::size_t b = 0; b < problem.body_count(); ++b)
         problem.dofs_of(b, file.f) = problem.mass(b) * problem.dofs_of(b, problem.free_velocity());
-    file.w = -problem.target().head(contact_rows);
-    for (const Constraint& contact : contacts) // one that is rigid asks for the lesser of the two
-        if (problem.compliance()[contact.first_row] == 0.0)
-            file.w[contact.first_row] -= std::min(0.0, contact.headroom);
+    file.w = offsets_of(file, problem, contacts, stops);
     file.b = -problem.target().tail(problem.rows() - contact_rows);
-    add_stops(file, stops);
     if (impulse.size() == 0) return file;
     FclibGuess& guess = file.guesses.emplace_back();
     guess.r = reactions_of(file, stops, problem, impulse);

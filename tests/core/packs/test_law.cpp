@@ -345,9 +345,9 @@ TEST_CASE("a row without a spring puts in no more than λ_n times the speed with
         const double per_impulse = 0.5 * (std::min(law.target, law.parting) + at.u_n);
         const double push = at.gap > 0.0 ? 0.0 : std::min(step.push_out_speed, 4.0 / 9.0 * -at.gap / step.h);
         CHECK(per_impulse <= push * (1 + 1e-12) + 1e-15);
-        // What is told of a contact that keeps no spring is no less than that, and no more than its speed.
+        // What is reported of a contact that keeps no spring is no less than that, and no more than its speed.
         if (law.compression > 0.0) {
-            CHECK(law.push == 0.0); // a spring is told as one
+            CHECK(law.push == 0.0); // a spring has its own books
             continue;
         }
         CHECK(law.push >= per_impulse * (1 - 1e-12) - 1e-15);

@@ -65,7 +65,7 @@ struct Touches {
             for (int d = 0; d < 3; ++d) own.impulse[d] = size * number(-1, 1);
             own.compression = static_cast<float>(number(0, 0.1 * radius));
             own.touch.note_load(true);
-            if (is_jammed(lane)) own.touch.note_told();
+            if (is_jammed(lane)) own.touch.note_known();
             if (had_gap(lane)) own.touch.note_closing();
         }
     }
