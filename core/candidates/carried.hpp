@@ -14,7 +14,7 @@ namespace talus
 /// What is known of a contact from the steps before: whether it was loaded or an impact, and whether it has jammed.
 ///
 /// Walls that move as told may ask for what rigid bodies cannot do: a press that closes on a sphere. Then no velocity
-/// obeys all contacts; those that overlap deeply yield (law.hpp), and one that yields and comes deeper and deeper has
+/// obeys all contacts; those that overlap deeply yield (law.hpp), and one that comes deeper and deeper has
 /// *jammed*, until it overlaps less. Nothing hangs on that but what is reported.
 class TouchRecord
 {
@@ -32,9 +32,9 @@ public:
     void note_load(bool loaded) { set(loaded, pressed()); }
     void note_impact() { set(2, pressed()); }
     void note_closing() { set(3, pressed()); }
-    /// A step in which it does not yield.
+    /// A step in which it is shallow.
     void note_hold() { set(last(), 0); }
-    /// A step in which it yields. @param deepens it bears a load, and comes deeper; @param is_deep too deep to wait
+    /// A step in which it is pressed. @param deepens it bears a load, and comes deeper; @param is_deep too deep to wait
     void note_yield(bool deepens, bool is_deep)
     {
         const int steps = std::max(0, pressed() + (deepens ? 1 : -1));

@@ -92,6 +92,7 @@ ContactSurvey& ContactSurvey::operator+=(const ContactSurvey& other)
     count += other.count;
     impacts += other.impacts;
     overlapping += other.overlapping;
+    yielding += other.yielding;
     worst_overlap = std::max(worst_overlap, other.worst_overlap);
     overlap_sum += other.overlap_sum;
     stored_energy += other.stored_energy;

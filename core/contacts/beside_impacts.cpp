@@ -36,8 +36,11 @@ public:
         for_each([&](std::size_t k) {
             const double u_n = contacts_.normal(k).dot(state_.motion[contacts_.a(k)].velocity - velocity_of_other(k));
             if (!settle_one(k, u_n, step)) return;
-            ratio = std::max(ratio, mass_ratio(contacts_.a(k)));
-            if (!with_walls_) ratio = std::max(ratio, mass_ratio(contacts_.b(k)));
+            const std::int32_t a = contacts_.a(k);
+            const double other_a = state_.motion[a].inverse_mass;
+            const double other_b = with_walls_ ? 0.0 : state_.motion[contacts_.b(k)].inverse_mass;
+            ratio = std::max(ratio, mass_ratio(a, other_b));
+            if (!with_walls_) ratio = std::max(ratio, mass_ratio(contacts_.b(k), other_a));
         });
         return ratio;
     }
@@ -48,7 +51,12 @@ private:
     std::vector<SphereImpacts>& impacts_;
     const State& state_;
 
-    double mass_ratio(std::int32_t sphere) const { return impacts_[sphere].mass * state_.motion[sphere].inverse_mass; }
+    /// Of a sphere between what strikes it and the other one that bears it: its share of what a sweep leaves undone.
+    double mass_ratio(std::int32_t sphere, double inverse_mass_of_other) const
+    {
+        const double mass = impacts_[sphere].mass;
+        return mass > 0.0 ? state_.motion[sphere].inverse_mass / (1.0 / mass + inverse_mass_of_other) : 0.0;
+    }
 
     template <class Visit> void for_each(Visit&& visit) const
     {
@@ -84,10 +92,11 @@ private:
         const double hands_on = std::max({carried, a.load, b.load});
         if (!is_loaded && !was_impact)
             contacts_.set_law(k, ContactKind::deferred, deferred_target(own.gap, u_n, step), -INFINITY, 0.0);
-        else if (parts || (is_loaded && load < light_share * impact))
+        const bool bears = parts || (is_loaded && load < light_share * impact);
+        if (bears)
             contacts_.set_law(k, ContactKind::bearing, bearing_target(own.gap, u_n, step),
-                static_cast<float>(borne_compression(own.compression, u_n, step)), hands_on);
-        return is_loaded;
+                static_cast<float>(borne_compression<double>(own.compression, u_n, step)), hands_on);
+        return bears && is_loaded;
     }
 };
 

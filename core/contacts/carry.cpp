@@ -26,7 +26,8 @@ TouchRecord noted(const TileContacts& contacts, std::size_t k, const LawOfStep& 
         touch.note_closing();
     else
         touch.note_load(along > 0.0 || geometry.kind == ContactKind::yielding);
-    if (geometry.kind == ContactKind::yielding || (touch.is_jammed() && overlap > jammed_overlap))
+    const double pressed = law.rigid ? rigid_yield_overlap : pressed_overlap;
+    if (overlap > pressed || (touch.is_jammed() && overlap > jammed_overlap))
         touch.note_yield(
             along > 0.0 && solved_velocity(contacts.contact(k).target, terms.compliance, terms.parting, along) < 0.0,
             overlap > jamming_overlap);

@@ -32,14 +32,13 @@ inline constexpr double least_restitution = 0.25;
 /// An impact below this share of a contact's load is light: the contact stays a spring beside it.
 inline constexpr double light_share = 0.1;
 
-/// A contact that overlaps more than this yields, in reduced radii R*: it keeps nothing of what it bears. One that
-/// closes faster than impacts begin does so at the second. What strains a contact is the root of overlap over R*
-/// (Hertz).
-inline constexpr double yield_overlap = 0.25;
-inline constexpr double fast_yield_overlap = 0.1;
-/// For reports alone: what yields and comes deeper for many steps, or is deeper than this, has jammed, until it is
-/// shallower than the second; in smallest diameters.
-inline constexpr double jamming_overlap = 0.15;
+/// A contact that overlaps more than this yields, in reduced radii R*: it holds no more than what has pressed it so
+/// far. What strains a contact is the root of overlap over R* (Hertz).
+inline constexpr double yield_overlap = 0.05;
+/// For reports alone, in smallest diameters: what comes deeper for many steps beyond the first (with `projected` beyond
+/// where contacts yield), or twice beyond the second, has jammed, until it is shallower than the third.
+inline constexpr double pressed_overlap = 0.05;
+inline constexpr double jamming_overlap = 0.25;
 inline constexpr double jammed_overlap = 0.01;
 
 /// Rigid contacts get softer with the fourth power of their overlap, up to this, in diameters of the smaller sphere,
@@ -77,7 +76,8 @@ template <class N> struct NormalLaw {
     N target;      ///< q_n [m/s]
     N compliance;  ///< Σ_n [1/kg]
     N parting;     ///< at most it asks for [m/s]
-    N compression; ///< κ: what a load has pressed, and pushing out [m]
+    N compression; ///< κ: what a load has pressed, and pushing out [m] …
+    N grown;       ///< … in this step [m]
     N push;        ///< what it may put in by pushing out, by its impulse; that of a spring is in its store [m/s]
     Answer<N> yields;
 };
@@ -161,9 +161,7 @@ template <class N> [[gnu::always_inline]] inline N impact_size(const ContactEven
 /// By how much a contact overlaps when it begins to yield [m].
 template <class N> [[gnu::always_inline]] inline N elastic_overlap(const ContactEvent<N>& event, const LawOfStep& step)
 {
-    const Answer<N> is_fast = event.u_n_before < N{} - step.elastic_speed;
-    const N begins = event.reduced_radius * (is_fast ? N{} + fast_yield_overlap : N{} + yield_overlap);
-    return step.rigid ? rigid_yield_overlap * event.diameter : begins;
+    return step.rigid ? rigid_yield_overlap * event.diameter : yield_overlap * event.reduced_radius;
 }
 
 /// Σ_n of a rigid contact: so small where it is shallow that nobody sees it, but where walls leave too little room,
@@ -222,10 +220,9 @@ template <class N> [[gnu::always_inline]] inline N rigid_push(const ContactEvent
 /// away only where it does not close, so it may always part as fast as it has closed.
 template <class N>
 [[gnu::always_inline]] inline N spring_parting(
-    const ContactEvent<N>& event, const N& kappa, const N& before, const LawOfStep& step)
+    const ContactEvent<N>& event, const N& kappa, const N& grown, const LawOfStep& step)
 {
-    const N pushing = larger<N>(N{}, smaller<N>(N{} + step.push_out_speed, (-event.gap - before) / step.h));
-    return larger<N>(step.elastic_speed / 3.0 + pushing + event.restitution * kappa / step.h, -event.u_n_before);
+    return larger<N>(step.elastic_speed / 3.0 + (grown + event.restitution * kappa) / step.h, -event.u_n_before);
 }
 
 /// The law of a contact of `projected`: rigid, but the softer the more it overlaps. What overlaps too much parts by the
@@ -240,12 +237,21 @@ template <class N>
     const N alone = smaller<N>(none, 2.0 * push - event.u_n_before);
     const N feedback = (-event.gap - most) * (4.0 * upsilon / step.h);
     return {open ? passive_target<N>(-event.gap / step.h, event.u_n_before) : larger<N>(alone, feedback),
-        open ? none : rigid_compliance<N>(event) / stiffening<N>(event), open ? infinite : alone, none - infinite,
+        open ? none : rigid_compliance<N>(event) / stiffening<N>(event), open ? infinite : alone, none - infinite, none,
         open ? none : push, yields};
 }
 
-/// The law of a contact of `matched`: a spring where a load has pressed it. What yields gives way like a spring that
-/// all of its overlap has pressed, and parts no faster than it would alone.
+/// What κ a spring may begin with whose row is rigid, so that it comes to hold no more than it did.
+template <class N>
+[[gnu::always_inline]] inline N borne_compression(const N& kappa, const N& u_n, const LawOfStep& step)
+{
+    const N kept = kappa + 0.5 * step.h * smaller<N>(N{}, u_n);
+    return kept > 0.0 ? kept : N{} - __builtin_inf();
+}
+
+/// The law of a contact of `matched`: a spring where a load has pressed it. What yields holds no more than a spring
+/// that is pressed until it yields; it bears as one that all of its overlap has pressed, and parts no faster than it
+/// would alone.
 template <class N>
 [[gnu::always_inline]] inline NormalLaw<N> spring_law(const ContactEvent<N>& event, const LawOfStep& step)
 {
@@ -254,19 +260,23 @@ template <class N>
     const N share = step.parts > 1.0 ? feedback_share<N>(compliance, event.inverse_mass_sum, step) : none + 1.0;
     const N per_way = 4.0 * upsilon / step.h * share; // of feedback: the speed that it asks for, by κ
 
-    const Answer<N> open = event.gap > least, yields = -event.gap > elastic_overlap<N>(event, step);
-    const Answer<N> rests = !(open | yields);
+    const N most = elastic_overlap<N>(event, step);
+    const Answer<N> open = event.gap > least, touching = event.gap <= least, yields = -event.gap > most;
     const N before = event.compression > least ? event.compression : none;
-    const N kappa = smaller<N>(-event.gap, before + step.h * step.push_out_speed);
-    const Answer<N> is_spring = rests & (before > 0.0),
-                    keeps = is_spring | (rests & (event.u_n_before < least / step.h));
-    const N feedback = per_way * kappa;
-    const N pushing = smaller<N>(none + step.push_out_speed, -event.gap * per_way);
-    const N passive = passive_target<N>(open ? -event.gap / step.h : (yields ? pushing : feedback), event.u_n_before);
-    return {is_spring ? feedback : (yields ? larger<N>(passive, -event.gap * per_way) : passive),
-        yields ? compliance / stiffening<N>(event) : compliance,
-        yields ? passive : (is_spring ? spring_parting<N>(event, kappa, before, step) : infinite),
-        keeps ? kappa : -infinite, (open | keeps) ? none : push_of<N>(-event.gap, step), yields};
+    const N presses = smaller<N>(-event.gap, most), elastic = smaller<N>(presses, before);
+    const N grown = smaller<N>(presses - elastic, none + step.h * step.push_out_speed), kappa = elastic + grown;
+    const Answer<N> is_spring = touching & (before > 0.0), closes = touching & (event.u_n_before < least / step.h);
+    const N kept = yields ? borne_compression<N>(kappa, event.u_n_before, step) : kappa;
+    const Answer<N> keeps = is_spring | closes;
+
+    const N feedback = per_way * kappa, strength = per_way * -event.gap;
+    const N pushing = smaller<N>(none + step.push_out_speed, strength);
+    const N parting = is_spring ? spring_parting<N>(event, kappa, grown, step) : infinite;
+    const N asks = open ? -event.gap / step.h : (yields ? pushing : feedback);
+    const N alone = passive_target<N>(asks, event.u_n_before);
+    return {yields ? larger<N>(alone, strength) : (is_spring ? feedback : alone),
+        yields ? compliance / stiffening<N>(event) : compliance, yields ? alone : parting, keeps ? kept : -infinite,
+        grown, (open | (keeps & !yields)) ? none : push_of<N>(-event.gap, step), yields};
 }
 
 /// The law of a contact where no impact is beside it, METHOD (4).
@@ -277,7 +287,7 @@ template <class N>
     const N none = {}, infinite = none + __builtin_inf();
     const NormalLaw<N> law = step.rigid ? rigid_law<N>(event, step) : spring_law<N>(event, step);
     return {impact ? -event.restitution * event.u_n : law.target, impact ? none : law.compliance,
-        impact ? infinite : law.parting, impact ? -infinite : law.compression, impact ? none : law.push,
+        impact ? infinite : law.parting, impact ? -infinite : law.compression, law.grown, impact ? none : law.push,
         law.yields & !impact};
 }
 
@@ -292,13 +302,6 @@ inline double deferred_target(double gap, double u_n, const LawOfStep& step)
 inline double bearing_target(double gap, double u_n, const LawOfStep& step)
 {
     return smaller(-larger(0.0, gap) / step.h, -u_n);
-}
-
-/// What κ a spring may begin with that bears an impact, so that it comes to hold no more than it did.
-inline double borne_compression(double kappa, double u_n, const LawOfStep& step)
-{
-    const double kept = kappa + 0.5 * step.h * smaller(0.0, u_n);
-    return kept > 0.0 ? kept : -__builtin_inf();
 }
 
 /// What a contact hands on of its κ, and what the next step makes of it: half of the way that its spheres go in a step

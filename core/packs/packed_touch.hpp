@@ -180,10 +180,10 @@ template <int width>
     put(contact.inverse_mass_sum, w);
 
     const N spring = spring_compliance<N>(event.stiffness, w, step.law);
-    const N least = none + touching_gap * step.law.min_diameter, before = smaller<N>(-event.gap, event.compression);
+    const N least = none + touching_gap * step.law.min_diameter;
     const F keeps = within_reach & (law.compression > none), stored = keeps & (event.compression > least);
     const N energy = spring_energy<N>(law.compression, event.u_n_before, spring, w, step.law);
-    const N energy_before = spring_energy<N>(before, event.u_n_before, spring, w, step.law);
+    const N energy_before = spring_energy<N>(law.compression - law.grown, event.u_n_before, spring, w, step.law);
     const N pushed_alone = spring_energy<N>(law.compression, none, spring, w, step.law);
     put(touch.stored_energy, stored ? energy : (keeps ? pushed_alone : none));
     put(touch.push_out_energy, stored ? energy - energy_before : (keeps ? pushed_alone : none));
@@ -246,6 +246,8 @@ template <int width>
     const Numbers<width> worst = load<width>(sums.worst_overlap + first);
     store<width>(sums.worst_overlap + first, larger<Numbers<width>>(worst, overlaps ? -gap : none));
     store<width>(sums.overlapping + first, load_flags<width>(sums.overlapping + first) - overlaps);
+    const Flags<width> yields = within_reach & (kind == std::int64_t{3});
+    store<width>(sums.yielding + first, load_flags<width>(sums.yielding + first) - yields);
 
     store<width>(record.gap + first, gap);
     store_floats<width>(record.compression + first, load<width>(touch.compression + first));

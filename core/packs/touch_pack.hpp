@@ -64,7 +64,8 @@ struct alignas(64) TouchSums {
     double worst_overlap[pack_size] = {};     ///< … and the largest [m]
     double stored_energy[pack_size] = {};     ///< in springs [J] …
     double push_out_energy[pack_size] = {};   ///< … of which pushing out has put in so much [J]
-    std::int64_t overlapping[pack_size] = {}; ///< how many overlap
+    std::int64_t overlapping[pack_size] = {}; ///< how many overlap …
+    std::int64_t yielding[pack_size] = {};    ///< … and how many yield, in the problem
 };
 
 /// The impacts of a pack.

@@ -285,7 +285,7 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
         const auto energy = [&](double kappa, double speed) {
             return spring_energy<double>(kappa, speed, spring, w, step);
         };
-        const double held = had ? energy(std::min(-gap, event.compression), event.u_n) : 0.0;
+        const double held = had ? energy(law.compression - law.grown, event.u_n) : 0.0;
         const double holds = keeps ? energy(law.compression, had ? event.u_n : 0.0) : 0.0;
         CHECK(all.sums.stored_energy[lane] == Approx(holds).margin(1e-18));
         CHECK(all.sums.push_out_energy[lane] == Approx(holds - held).margin(1e-12 * std::abs(holds)));
