@@ -87,7 +87,7 @@ ContactSurvey SphereAssembly::make(const Tile& tile, const SphereNumbers& sphere
     }
     for (int lane = 0; lane < pack_size; ++lane) {
         survey.overlapping += static_cast<std::size_t>(sums.overlapping[lane]);
-        survey.yielding += static_cast<std::size_t>(sums.yielding[lane]);
+        survey.worst_strain = std::max(survey.worst_strain, sums.worst_strain[lane]);
         survey.overlap_sum += sums.overlap[lane];
         survey.worst_overlap = std::max(survey.worst_overlap, sums.worst_overlap[lane]);
         survey.stored_energy += sums.stored_energy[lane];

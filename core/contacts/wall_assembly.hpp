@@ -131,7 +131,7 @@ private:
             impacts_[sphere].note(touch_.impact_size[lane], 0.0); // nothing is heavier than what stands still
         ++survey_.count;
         survey_.impacts += is_impact;
-        survey_.yielding += touch_.kind[lane] == static_cast<std::int64_t>(ContactKind::yielding);
+        survey_.worst_strain = std::max(survey_.worst_strain, touch_.strain[lane]);
         survey_.stored_energy += touch_.stored_energy[lane];
         survey_.push_out_energy += touch_.push_out_energy[lane];
     }

@@ -272,7 +272,7 @@ template <class N>
     const N feedback = per_way * kappa, strength = per_way * -event.gap;
     const N pushing = smaller<N>(none + step.push_out_speed, strength);
     const N parting = is_spring ? spring_parting<N>(event, kappa, grown, step) : infinite;
-    const N asks = open ? -event.gap / step.h : (yields ? pushing : feedback);
+    const N asks = open ? -event.gap / step.h : (yields ? smaller<N>(pushing, parting) : feedback);
     const N alone = passive_target<N>(asks, event.u_n_before);
     return {yields ? larger<N>(alone, strength) : (is_spring ? feedback : alone),
         yields ? compliance / stiffening<N>(event) : compliance, yields ? alone : parting, keeps ? kept : -infinite,

@@ -189,6 +189,7 @@ template <int width>
     put(touch.push_out_energy, stored ? energy - energy_before : (keeps ? pushed_alone : none));
     put(touch.spring, spring);
     put(touch.push, law.push);
+    put(touch.strain, -event.gap / elastic_overlap<N>(event, step.law));
     put(touch.impact_size, impact ? impact_size<N>(event) : none);
     store<width>(touch.compression + first, law.compression);
     const F open = event.gap > least;
@@ -246,8 +247,8 @@ template <int width>
     const Numbers<width> worst = load<width>(sums.worst_overlap + first);
     store<width>(sums.worst_overlap + first, larger<Numbers<width>>(worst, overlaps ? -gap : none));
     store<width>(sums.overlapping + first, load_flags<width>(sums.overlapping + first) - overlaps);
-    const Flags<width> yields = within_reach & (kind == std::int64_t{3});
-    store<width>(sums.yielding + first, load_flags<width>(sums.yielding + first) - yields);
+    const Numbers<width> strain = load<width>(touch.strain + first), before = load<width>(sums.worst_strain + first);
+    store<width>(sums.worst_strain + first, larger<Numbers<width>>(before, within_reach ? strain : none));
 
     store<width>(record.gap + first, gap);
     store_floats<width>(record.compression + first, load<width>(touch.compression + first));

@@ -37,6 +37,7 @@ struct alignas(64) TouchPack {
     std::int64_t kind[pack_size];      ///< made: ContactKind …
     double spring[pack_size];          ///< … Σ_n of its spring [1/kg]
     double push[pack_size];            ///< … of NormalLaw [m/s] …
+    double strain[pack_size];          ///< … overlap, of that with which it yields
     double impact_size[pack_size];     ///< … of an impact [N s], else 0
     double stored_energy[pack_size];   ///< … in its spring [J] …
     double push_out_energy[pack_size]; ///< … of which pushing out has put in so much [J]
@@ -64,8 +65,8 @@ struct alignas(64) TouchSums {
     double worst_overlap[pack_size] = {};     ///< … and the largest [m]
     double stored_energy[pack_size] = {};     ///< in springs [J] …
     double push_out_energy[pack_size] = {};   ///< … of which pushing out has put in so much [J]
-    std::int64_t overlapping[pack_size] = {}; ///< how many overlap …
-    std::int64_t yielding[pack_size] = {};    ///< … and how many yield, in the problem
+    double worst_strain[pack_size] = {};      ///< largest overlap, of that with which a contact yields
+    std::int64_t overlapping[pack_size] = {}; ///< how many overlap
 };
 
 /// The impacts of a pack.
