@@ -21,7 +21,7 @@ namespace
 
 constexpr std::int64_t audit_interval = 16;         ///< steps; gains of contacts are looked for in one of so many
 constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
-constexpr double usual_ratio = 10.0;                ///< of masses in an impact on what bears
+constexpr double usual_ratio = 10.0;                ///< of a sphere's mass to those that strike and bear it
 constexpr double most_ratio = 300.0;                ///< … up to which an impact is solved further
 constexpr double least_share = 0.1;                 ///< of the tolerance, where contacts yield …
 constexpr double least_tolerance = 1e-3;            ///< … but no less than this
@@ -128,9 +128,9 @@ double fastest_of(const State& state, const std::vector<Flight>& flights, double
     return fastest;
 }
 
-/// Where a sphere that bears on others is struck by one of R > 10 times its mass, sweeps that stop at the usual ε leave
-/// most of the impact undone: such a step converges further, and is cheaper in the end than the bounces of many. And
-/// what is pinched bears impulses beside which those of all others are small: ε would not see them.
+/// Where a sphere is struck by a heavier one and borne by another, R > 10 times its mass both, sweeps that stop at the
+/// usual ε leave most of the impact undone: such a step converges further, and is cheaper in the end than the bounces
+/// of many. What is pinched bears impulses beside which those of all others are small: ε would not see their errors.
 SolverSettings solver_for(const PreparedStep& prepared, SolverSettings solver)
 {
     const double share = std::clamp(1.0 / prepared.contacts.worst_strain, least_share, 1.0);
