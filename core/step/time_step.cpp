@@ -21,7 +21,7 @@ namespace
 
 constexpr std::int64_t audit_interval = 16;         ///< steps; gains of contacts are looked for in one of so many
 constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
-constexpr double usual_ratio = 10.0;                ///< of a sphere's mass to those that strike and bear it
+constexpr double usual_ratio = 10.0;                ///< of what strikes and bears a sphere, to its own mass
 constexpr double most_ratio = 300.0;                ///< … up to which an impact is solved further
 constexpr double least_share = 0.1;                 ///< of the tolerance, where contacts yield …
 constexpr double least_tolerance = 1e-3;            ///< … but no less than this
