@@ -12,12 +12,21 @@ namespace talus
 namespace
 {
 
-/// What this step adds to the record of a contact.
-TouchRecord noted(const TileContacts& contacts, std::size_t k, const LawOfStep& law)
+/// With which speed the two of a contact part after the step, solved or not [m/s].
+double parting_speed(const TileContacts& contacts, std::size_t k, const State& state, bool with_wall)
+{
+    const Contact c = contacts.contact(k);
+    Vec3 u = state.motion[c.a].velocity;
+    if (!with_wall) u -= state.motion[c.b].velocity;
+    if (with_wall && contacts.has_moving_walls()) u -= contacts.wall(k).velocity;
+    return u.dot(c.normal);
+}
+
+/// What this step adds to the record of a contact. @param u_n with which it parts after the step [m/s]
+TouchRecord noted(const TileContacts& contacts, std::size_t k, double u_n, const LawOfStep& law)
 {
     const ContactGeometry geometry = contacts.geometry(k);
     const double along = contacts.impulse(k).dot(contacts.normal(k));
-    const ContactTerms terms = contacts.terms(k);
     const double overlap = -geometry.gap / law.min_diameter;
     TouchRecord touch = geometry.touch;
     if (along > 0.0 && geometry.kind == ContactKind::impact)
@@ -28,16 +37,15 @@ TouchRecord noted(const TileContacts& contacts, std::size_t k, const LawOfStep& 
         touch.note_load(along > 0.0 || geometry.kind == ContactKind::yielding);
     const double pressed = law.rigid ? rigid_yield_overlap : pressed_overlap;
     if (overlap > pressed || (touch.is_jammed() && overlap > jammed_overlap))
-        touch.note_yield(
-            along > 0.0 && solved_velocity(contacts.contact(k).target, terms.compliance, terms.parting, along) < 0.0,
-            overlap > jamming_overlap);
+        touch.note_yield(along > 0.0 && u_n<0.0, overlap> jamming_overlap);
     else
         touch.note_hold();
     return touch;
 }
 
 /// What the contacts between the spheres of a tile hand on.
-ContactOutcome carry_between_spheres(TileContacts& contacts, CarriedImpulses& carried, const LawOfStep& law)
+ContactOutcome carry_between_spheres(
+    TileContacts& contacts, CarriedImpulses& carried, const State& state, const LawOfStep& law)
 {
     ContactOutcome outcome;
     auto* const records = reinterpret_cast<double*>(carried.contact.data());
@@ -48,7 +56,7 @@ ContactOutcome carry_between_spheres(TileContacts& contacts, CarriedImpulses& ca
         outcome.push_out_energy += handed.push_out_energy;
         for (unsigned lanes = handed.deep_lanes; lanes != 0; lanes &= lanes - 1) {
             const std::size_t k = pack_size * p + static_cast<std::size_t>(std::countr_zero(lanes));
-            const TouchRecord touch = noted(contacts, k, law);
+            const TouchRecord touch = noted(contacts, k, parting_speed(contacts, k, state, false), law);
             contacts.set_touch(k, touch);
             carried.contact[contacts.geometry(k).slot].touch = touch;
             if (touch.is_newly_jammed()) ++outcome.newly_jammed;
@@ -63,7 +71,8 @@ ContactOutcome carry_between_spheres(TileContacts& contacts, CarriedImpulses& ca
 }
 
 /// The same of those with walls, one by one.
-ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, const LawOfStep& law)
+ContactOutcome carry_at_walls(
+    TileContacts& contacts, CarriedImpulses& carried, const State& state, const LawOfStep& law)
 {
     ContactOutcome outcome;
     for (const std::size_t k : contacts.indices()) {
@@ -71,7 +80,7 @@ ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, 
         const ContactTerms terms = contacts.terms(k);
         const double along = impulse.dot(normal), tangent_impulse = (impulse - along * normal).norm();
         outcome.cone_violation = std::max(outcome.cone_violation, tangent_impulse - terms.friction * along);
-        const TouchRecord touch = noted(contacts, k, law);
+        const TouchRecord touch = noted(contacts, k, parting_speed(contacts, k, state, true), law);
         contacts.set_touch(k, touch);
         if (touch.is_newly_jammed()) ++outcome.newly_jammed;
 
@@ -140,8 +149,8 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
         const auto tile = static_cast<std::size_t>(t);
         auto& outcome = outcomes[tile];
         TileContacts& walls = contacts.walls[tile];
-        outcome = carry_between_spheres(contacts.spheres[tile], network.list.tiles.tiles[tile].carried, law);
-        outcome += carry_at_walls(walls, network.carried.walls, law);
+        outcome = carry_between_spheres(contacts.spheres[tile], network.list.tiles.tiles[tile].carried, state, law);
+        outcome += carry_at_walls(walls, network.carried.walls, state, law);
         if (walls.has_moving_walls())
             for (const std::size_t k : walls.indices()) {
                 const WallRow wall = walls.wall(k);
@@ -155,7 +164,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
     }
     ContactOutcome all;
     for (const auto& outcome : outcomes) all += outcome;
-    all += carry_at_walls(contacts.pistons, network.carried.walls, law);
+    all += carry_at_walls(contacts.pistons, network.carried.walls, state, law);
     all.from_pistons = load_from(contacts.pistons, state, h);
     note_walls_touched(contacts.pistons, state);
     return all;

@@ -42,9 +42,9 @@ inline constexpr double jamming_overlap = 0.25;
 inline constexpr double jammed_overlap = 0.01;
 
 /// Rigid contacts get softer with the fourth power of their overlap, up to this, in diameters of the smaller sphere,
-/// and up to this compliance, in inverse mass sums; what they overlap beyond it presses them apart.
+/// and up to this compliance, in inverse mass sums.
 inline constexpr double rigid_yield_overlap = 0.016;
-inline constexpr double rigid_softness = 0.1;
+inline constexpr double rigid_softness = 0.02;
 
 /// What sweeps may leave undone of the load of a rigid contact.
 inline constexpr double undone_share = 0.03;
@@ -215,28 +215,31 @@ template <class N> [[gnu::always_inline]] inline N rigid_push(const ContactEvent
     return smaller<N>(push_of<N>(-event.gap, step), undone_share * event.inverse_mass_sum * event.load);
 }
 
-/// How fast a spring parts at most, beyond the speed of pushing out: what was pressed faster than impacts begin comes
-/// back with e of the speed that it could have; κ/h is more than any spring has. A contact that does so gives energy
-/// away only where it does not close, so it may always part as fast as it has closed.
-template <class N>
-[[gnu::always_inline]] inline N spring_parting(
-    const ContactEvent<N>& event, const N& kappa, const N& grown, const LawOfStep& step)
+/// The speed at which a loaded contact parts however little its restitution is: without it, beds boil.
+inline double slow_parting(const LawOfStep& step)
 {
-    return larger<N>(step.elastic_speed / 3.0 + (grown + event.restitution * kappa) / step.h, -event.u_n_before);
+    return step.elastic_speed / 3.0;
 }
 
-/// The law of a contact of `projected`: rigid, but the softer the more it overlaps. What overlaps too much parts by the
-/// feedback of a spring that all of that has pressed, and no faster than it would alone.
+/// How fast a spring parts at most: what was pressed faster than impacts begin comes back with e of the speed that it
+/// could have; κ/h is more than any spring has. A contact that does so gives energy away only where it does not close,
+/// so it may always part as fast as it has closed.
+template <class N>
+[[gnu::always_inline]] inline N spring_parting(const ContactEvent<N>& event, const N& kappa, const LawOfStep& step)
+{
+    return larger<N>(slow_parting(step) + event.restitution * kappa / step.h, -event.u_n_before);
+}
+
+/// The law of a contact of `projected`: rigid, but the softer the more it overlaps. It bears as a spring that all of
+/// its overlap has pressed, so that no load sinks, and parts no faster than it would alone.
 template <class N>
 [[gnu::always_inline]] inline NormalLaw<N> rigid_law(const ContactEvent<N>& event, const LawOfStep& step)
 {
     const N none = {}, infinite = none + __builtin_inf();
-    const N most = elastic_overlap<N>(event, step);
-    const Answer<N> open = !touches<N>(event.gap, step), yields = -event.gap > most;
-    const N push = rigid_push<N>(event, step);
-    const N alone = smaller<N>(none, 2.0 * push - event.u_n_before);
-    const N feedback = (-event.gap - most) * (4.0 * upsilon / step.h);
-    return {open ? passive_target<N>(-event.gap / step.h, event.u_n_before) : larger<N>(alone, feedback),
+    const Answer<N> open = !touches<N>(event.gap, step), yields = -event.gap > elastic_overlap<N>(event, step);
+    const N push = rigid_push<N>(event, step), alone = smaller<N>(none, 2.0 * push - event.u_n_before);
+    const N strength = -event.gap * (4.0 * upsilon / step.h);
+    return {open ? passive_target<N>(-event.gap / step.h, event.u_n_before) : larger<N>(alone, strength),
         open ? none : rigid_compliance<N>(event) / stiffening<N>(event), open ? infinite : alone, none - infinite, none,
         open ? none : push, yields};
 }
@@ -250,8 +253,8 @@ template <class N>
 }
 
 /// The law of a contact of `matched`: a spring where a load has pressed it. What yields holds no more than a spring
-/// that is pressed until it yields; it bears as one that all of its overlap has pressed, and parts no faster than it
-/// would alone.
+/// that is pressed until it yields; it bears as one that all of its overlap has pressed, and parts no faster than
+/// impacts begin.
 template <class N>
 [[gnu::always_inline]] inline NormalLaw<N> spring_law(const ContactEvent<N>& event, const LawOfStep& step)
 {
@@ -270,13 +273,13 @@ template <class N>
     const Answer<N> keeps = is_spring | closes;
 
     const N feedback = per_way * kappa, strength = per_way * -event.gap;
-    const N pushing = smaller<N>(none + step.push_out_speed, strength);
-    const N parting = is_spring ? spring_parting<N>(event, kappa, grown, step) : infinite;
-    const N asks = open ? -event.gap / step.h : (yields ? smaller<N>(pushing, parting) : feedback);
+    const N pushing = smaller<N>(none + smaller(step.push_out_speed, step.elastic_speed), strength);
+    const N asks = open ? -event.gap / step.h : (yields ? pushing : feedback);
     const N alone = passive_target<N>(asks, event.u_n_before);
+    const N parting = is_spring ? spring_parting<N>(event, kappa, step) : infinite;
     return {yields ? larger<N>(alone, strength) : (is_spring ? feedback : alone),
         yields ? compliance / stiffening<N>(event) : compliance, yields ? alone : parting, keeps ? kept : -infinite,
-        grown, (open | (keeps & !yields)) ? none : push_of<N>(-event.gap, step), yields};
+        grown, (open | (keeps & !yields)) ? none : asks, yields};
 }
 
 /// The law of a contact where no impact is beside it, METHOD (4).
