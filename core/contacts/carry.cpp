@@ -12,18 +12,11 @@ namespace talus
 namespace
 {
 
-/// With which speed the two of a contact part after the step, solved or not [m/s].
-double parting_speed(const TileContacts& contacts, std::size_t k, const State& state, bool with_wall)
-{
-    const Contact c = contacts.contact(k);
-    Vec3 u = state.motion[c.a].velocity;
-    if (!with_wall) u -= state.motion[c.b].velocity;
-    if (with_wall && contacts.has_moving_walls()) u -= contacts.wall(k).velocity;
-    return u.dot(c.normal);
-}
-
-/// What this step adds to the record of a contact. @param u_n with which it parts after the step [m/s]
-TouchRecord noted(const TileContacts& contacts, std::size_t k, double u_n, const LawOfStep& law)
+/// What this step adds to the record of a contact.
+/// @param velocity_of_b what this says of contact k, after the step [m/s]
+template <class VelocityOfB>
+TouchRecord noted(const TileContacts& contacts, std::size_t k, const State& state, const LawOfStep& law,
+    const VelocityOfB& velocity_of_b)
 {
     const ContactGeometry geometry = contacts.geometry(k);
     const double along = contacts.impulse(k).dot(contacts.normal(k));
@@ -36,10 +29,13 @@ TouchRecord noted(const TileContacts& contacts, std::size_t k, double u_n, const
     else
         touch.note_load(along > 0.0 || geometry.kind == ContactKind::yielding);
     const double pressed = law.rigid ? rigid_yield_overlap : pressed_overlap;
-    if (overlap > pressed || (touch.is_jammed() && overlap > jammed_overlap))
-        touch.note_yield(along > 0.0 && u_n<0.0, overlap> jamming_overlap);
-    else
+    if (overlap <= pressed && !(touch.is_jammed() && overlap > jammed_overlap)) {
         touch.note_hold();
+        return touch;
+    }
+    const Vec3 u = state.motion[contacts.a(k)].velocity - velocity_of_b(k); // solved or not
+    const bool deepens = along > 0.0 && u.dot(contacts.normal(k)) < 0.0;
+    touch.note_yield(deepens, overlap > jamming_overlap);
     return touch;
 }
 
@@ -56,7 +52,8 @@ ContactOutcome carry_between_spheres(
         outcome.push_out_energy += handed.push_out_energy;
         for (unsigned lanes = handed.deep_lanes; lanes != 0; lanes &= lanes - 1) {
             const std::size_t k = pack_size * p + static_cast<std::size_t>(std::countr_zero(lanes));
-            const TouchRecord touch = noted(contacts, k, parting_speed(contacts, k, state, false), law);
+            const TouchRecord touch =
+                noted(contacts, k, state, law, [&](std::size_t j) { return state.motion[contacts.b(j)].velocity; });
             contacts.set_touch(k, touch);
             carried.contact[contacts.geometry(k).slot].touch = touch;
             if (touch.is_newly_jammed()) ++outcome.newly_jammed;
@@ -71,8 +68,9 @@ ContactOutcome carry_between_spheres(
 }
 
 /// The same of those with walls, one by one.
-ContactOutcome carry_at_walls(
-    TileContacts& contacts, CarriedImpulses& carried, const State& state, const LawOfStep& law)
+template <class VelocityOfB>
+ContactOutcome carry_at_walls(TileContacts& contacts, CarriedImpulses& carried, const State& state,
+    const LawOfStep& law, const VelocityOfB& velocity_of_b)
 {
     ContactOutcome outcome;
     for (const std::size_t k : contacts.indices()) {
@@ -80,7 +78,7 @@ ContactOutcome carry_at_walls(
         const ContactTerms terms = contacts.terms(k);
         const double along = impulse.dot(normal), tangent_impulse = (impulse - along * normal).norm();
         outcome.cone_violation = std::max(outcome.cone_violation, tangent_impulse - terms.friction * along);
-        const TouchRecord touch = noted(contacts, k, parting_speed(contacts, k, state, true), law);
+        const TouchRecord touch = noted(contacts, k, state, law, velocity_of_b);
         contacts.set_touch(k, touch);
         if (touch.is_newly_jammed()) ++outcome.newly_jammed;
 
@@ -150,7 +148,8 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
         auto& outcome = outcomes[tile];
         TileContacts& walls = contacts.walls[tile];
         outcome = carry_between_spheres(contacts.spheres[tile], network.list.tiles.tiles[tile].carried, state, law);
-        outcome += carry_at_walls(walls, network.carried.walls, state, law);
+        outcome += carry_at_walls(walls, network.carried.walls, state, law,
+            [&](std::size_t k) { return walls.has_moving_walls() ? walls.wall(k).velocity : Vec3::Zero().eval(); });
         if (walls.has_moving_walls())
             for (const std::size_t k : walls.indices()) {
                 const WallRow wall = walls.wall(k);
@@ -164,7 +163,8 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
     }
     ContactOutcome all;
     for (const auto& outcome : outcomes) all += outcome;
-    all += carry_at_walls(contacts.pistons, network.carried.walls, state, law);
+    all += carry_at_walls(contacts.pistons, network.carried.walls, state, law,
+        [&](std::size_t k) { return state.pistons[model.walls[contacts.pistons.b(k)].piston].velocity; });
     all.from_pistons = load_from(contacts.pistons, state, h);
     note_walls_touched(contacts.pistons, state);
     return all;
