@@ -45,6 +45,13 @@ void HardCase::below(const std::string& what, double measured, double limit)
     add(what + " < " + text(limit), text(measured), measured < limit);
 }
 
+void HardCase::should_be_below(const std::string& what, double measured, double limit)
+{
+    INFO(what);
+    CHECK_NOFAIL(measured < limit);
+    add(what + " < " + text(limit), text(measured), measured < limit);
+}
+
 void HardCase::above(const std::string& what, double measured, double limit)
 {
     INFO(what);

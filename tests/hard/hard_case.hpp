@@ -29,6 +29,7 @@ public:
 
     // Each is one row. `what` has its unit in brackets.
     void below(const std::string& what, double measured, double limit);
+    void should_be_below(const std::string& what, double measured, double limit); ///< it fails as a row, not as a test
     void above(const std::string& what, double measured, double limit);
     void between(const std::string& what, double measured, double least, double most);
     void holds(const std::string& what, bool held);

@@ -201,6 +201,7 @@ TEST_CASE("an overlap without a spring becomes one only where it does not part",
 TEST_CASE("a rigid contact stops what comes, and does not hold what leaves", "[law][stabilisation]")
 {
     CHECK(most_asked(event(-1e-5, -0.09, 0.0, 1e-5), rigid()) == 0.0);
+    CHECK(law_of(event(-1e-5, -0.09, 0.0, 1e-5), rigid()).parting == 0.0);
     CHECK(most_asked(event(-1e-5, 0.5), rigid()) == -0.5); // and so takes no energy in
     // But for what sweeps leave undone of a load, up to the speed of pushing out.
     CHECK(most_asked(event(-1e-3, 0.5, 0.05), rigid()) == Approx(2 * undone_share * w * 0.05 - 0.5));
