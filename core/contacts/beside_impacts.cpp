@@ -18,14 +18,22 @@ public:
     {
     }
 
+    void find()
+    {
+        contacts_.struck().clear();
+        for (std::size_t p = 0; p < contacts_.packs(); ++p)
+            for (unsigned lanes = struck_lanes(p); lanes != 0; lanes &= lanes - 1)
+                contacts_.struck().push_back(pack_size * p + static_cast<std::size_t>(std::countr_zero(lanes)));
+    }
+
     /// Notes what other spheres press on spheres with.
     void note_loads()
     {
-        for_each([&](std::size_t k) {
+        for (const std::size_t k : contacts_.struck()) {
             const double load = contacts_.impulse(k).dot(contacts_.normal(k));
             impacts_[contacts_.a(k)].note_load(load);
             impacts_[contacts_.b(k)].note_load(load);
-        });
+        }
     }
 
     /// Gives each its law. Returns the greatest ratio of masses of those that bear.
@@ -33,15 +41,15 @@ public:
     template <class Velocity> double settle(const LawOfStep& step, Velocity&& velocity_of_other)
     {
         double ratio = 0.0;
-        for_each([&](std::size_t k) {
+        for (const std::size_t k : contacts_.struck()) {
             const double u_n = contacts_.normal(k).dot(state_.motion[contacts_.a(k)].velocity - velocity_of_other(k));
-            if (!settle_one(k, u_n, step)) return;
+            if (!settle_one(k, u_n, step)) continue;
             const std::int32_t a = contacts_.a(k);
             const double other_a = state_.motion[a].inverse_mass;
             const double other_b = with_walls_ ? 0.0 : state_.motion[contacts_.b(k)].inverse_mass;
             ratio = std::max(ratio, mass_ratio(a, other_b));
             if (!with_walls_) ratio = std::max(ratio, mass_ratio(contacts_.b(k), other_a));
-        });
+        }
         return ratio;
     }
 
@@ -58,22 +66,16 @@ private:
         return mass > 0.0 ? state_.motion[sphere].inverse_mass / (1.0 / mass + inverse_mass_of_other) : 0.0;
     }
 
-    template <class Visit> void for_each(Visit&& visit) const
-    {
-        for (std::size_t p = 0; p < contacts_.packs(); ++p)
-            for (unsigned lanes = struck_lanes(p); lanes != 0; lanes &= lanes - 1)
-                visit(pack_size * p + static_cast<std::size_t>(std::countr_zero(lanes)));
-    }
-
     /// As bits.
     unsigned struck_lanes(std::size_t p) const
     {
         const ContactPack& pack = contacts_.pack(p);
+        const std::int32_t* const other = with_walls_ ? pack.a : pack.b;
+        const SphereImpacts* const impacts = impacts_.data();
         unsigned lanes = 0;
-        for (unsigned lane = 0; lane < pack_size && pack.a[lane] >= 0; ++lane) {
-            const bool is_struck =
-                impacts_[pack.a[lane]].size > 0.0 || (!with_walls_ && impacts_[pack.b[lane]].size > 0.0);
-            lanes |= static_cast<unsigned>(is_struck) << lane;
+        for (unsigned lane = 0; lane < pack_size; ++lane) { // no branch: which are struck is no pattern
+            const double size = impacts[std::max(pack.a[lane], 0)].size + impacts[std::max(other[lane], 0)].size;
+            lanes |= static_cast<unsigned>(size > 0.0) << lane;
         }
         return lanes & contacts_.record(p).in_problem;
     }
@@ -113,6 +115,7 @@ double stand_beside_impacts(ContactNetwork& network, const State& state, const M
         return Bystanders(contacts.walls[tile], true, contacts.impacts, state);
     };
     Bystanders pistons(contacts.pistons, true, contacts.impacts, state);
+    pistons.find();
     double ratio = pistons.settle(step, [&](std::size_t k) {
         const PistonState& own = state.pistons[static_cast<std::size_t>(model.walls[contacts.pistons.b(k)].piston)];
         return Vec3(own.velocity + own.spin.cross(contacts.piston_arms[k]));
@@ -122,6 +125,8 @@ double stand_beside_impacts(ContactNetwork& network, const State& state, const M
 #pragma omp for schedule(dynamic)
         for (std::int64_t t = 0; t < tiles; ++t) {
             const auto tile = static_cast<std::size_t>(t);
+            walls(tile).find();
+            spheres(tile).find();
             spheres(tile).note_loads();
         }
 #pragma omp for schedule(dynamic) reduction(max : ratio)

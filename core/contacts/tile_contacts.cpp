@@ -85,7 +85,7 @@ void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms
     pack.parting[lane] = terms.parting;
     pack.normal_mass[lane] = terms.normal_mass;
     pack.tangent_mass[lane] = terms.tangent_mass;
-    pack.inverse_mass_sum[lane] = terms.inverse_mass_sum;
+    record_at(k).inverse_mass_sum[lane] = terms.inverse_mass_sum;
 }
 
 void TileContacts::place_pair(std::size_t k, std::int32_t sphere_a, std::int32_t sphere_b, std::uint32_t slot)
@@ -95,13 +95,14 @@ void TileContacts::place_pair(std::size_t k, std::int32_t sphere_a, std::int32_t
     records_[k / pack_size].slot[k % pack_size] = slot;
 }
 
-void TileContacts::copy(std::size_t k, const ContactPack& from, std::size_t lane, const ContactGeometry& own)
+void TileContacts::copy(
+    std::size_t k, const ContactPack& from, std::size_t lane, double inverse_mass_sum, const ContactGeometry& own)
 {
     const Contact contact{
         from.a[lane], from.b[lane], get(from.normal, lane), from.target[lane], get(from.impulse, lane)};
     set(k, contact,
         {from.arm_scale[lane], from.friction[lane], from.compliance[lane], from.parting[lane], from.normal_mass[lane],
-            from.tangent_mass[lane], from.inverse_mass_sum[lane]},
+            from.tangent_mass[lane], inverse_mass_sum},
         own);
 }
 
@@ -113,7 +114,7 @@ void TileContacts::set_law(std::size_t k, ContactKind kind, double target, float
     pack.target[lane] = target;
     pack.compliance[lane] = 0.0;
     pack.parting[lane] = infinity;
-    pack.normal_mass[lane] = 1.0 / pack.inverse_mass_sum[lane];
+    pack.normal_mass[lane] = 1.0 / record.inverse_mass_sum[lane];
     record.kind[lane] = kind;
     record.compression[lane] = compression;
     record.hands_on[lane] = static_cast<float>(hands_on);
@@ -152,16 +153,16 @@ ContactTerms TileContacts::terms(std::size_t k) const
     const ContactPack& pack = packs_[k / pack_size];
     const std::size_t lane = k % pack_size;
     return {pack.arm_scale[lane], pack.friction[lane], pack.compliance[lane], pack.parting[lane],
-        pack.normal_mass[lane], pack.tangent_mass[lane], pack.inverse_mass_sum[lane]};
+        pack.normal_mass[lane], pack.tangent_mass[lane], records_[k / pack_size].inverse_mass_sum[lane]};
 }
 
 ContactGeometry TileContacts::geometry(std::size_t k) const
 {
     const RecordPack& record = records_[k / pack_size];
     const std::size_t lane = k % pack_size;
-    return {record.gap[lane], record.wall_level[lane], record.slot[lane], record.kind[lane],
-        std::bit_cast<TouchRecord>(record.touch[lane]), record.compression[lane], record.spring[lane],
-        record.restitution[lane], record.hands_on[lane], record.push[lane]};
+    return {record.gap[lane], record.wall_level[lane], record.slot[lane], record.kind[lane], touch(k),
+        record.compression[lane], record.spring[lane], record.restitution[lane], record.hands_on[lane],
+        record.push[lane]};
 }
 
 RollingRow TileContacts::rolling(std::size_t k) const

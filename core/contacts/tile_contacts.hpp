@@ -85,7 +85,8 @@ public:
     /// The same; what is known of it besides stays.
     void set(std::size_t k, const Contact& contact, const ContactTerms& terms);
     /// Contact k becomes what stands in a lane of another pack.
-    void copy(std::size_t k, const ContactPack& from, std::size_t lane, const ContactGeometry& own);
+    void copy(
+        std::size_t k, const ContactPack& from, std::size_t lane, double inverse_mass_sum, const ContactGeometry& own);
     /// Contact k gets another normal law, and hands on no more than this normal impulse [N s].
     void set_law(std::size_t k, ContactKind kind, double target, float compression, double hands_on);
     void set_rolling(std::size_t k, const RollingRow& row);
@@ -111,6 +112,9 @@ public:
     bool has_moving_walls() const { return with_moving_walls_; }
     /// The indices of the contacts, in the order in which they are swept.
     LanesInProblem indices() const { return {records_.data(), count_}; }
+    /// Of these, those of which a sphere has an impact, once `stand_beside_impacts` has looked for them.
+    const std::vector<std::size_t>& struck() const { return struck_; }
+    std::vector<std::size_t>& struck() { return struck_; }
     std::size_t count() const
     {
         const LanesInProblem all = indices();
@@ -124,6 +128,10 @@ public:
     Contact contact(std::size_t k) const;
     ContactTerms terms(std::size_t k) const;
     ContactGeometry geometry(std::size_t k) const;
+    TouchRecord touch(std::size_t k) const
+    {
+        return std::bit_cast<TouchRecord>(records_[k / pack_size].touch[k % pack_size]);
+    }
     ContactKind kind(std::size_t k) const { return records_[k / pack_size].kind[k % pack_size]; }
     RollingRow rolling(std::size_t k) const;
     WallRow wall(std::size_t k) const;
@@ -136,6 +144,7 @@ private:
     std::vector<RecordPack> records_;
     std::vector<RollingPack> rolling_; ///< empty unless the scene has rolling resistance
     std::vector<WallPack> wall_;       ///< empty unless walls move, and between spheres
+    std::vector<std::size_t> struck_;
     bool with_rolling_ = false, with_moving_walls_ = false, made_whole_ = false;
 
     RecordPack& record_at(std::size_t k) { return records_[k / pack_size]; }

@@ -46,7 +46,7 @@ public:
         contact_.friction[lane] = law.friction;
         for (int d = 0; d < 3; ++d) contact_.normal[d][lane] = at.normal[d];
         contact_.arm_scale[lane] = 1.0;
-        contact_.inverse_mass_sum[lane] = at.inverse_mass_sum;
+        touch_.inverse_mass_sum[lane] = at.inverse_mass_sum;
         touch_.restitution[lane] = law.restitution;
         touch_.stiffness[lane] = law.stiffness;
         const CarriedContact& carried = carried_.contact[at.slot];
@@ -108,7 +108,7 @@ private:
         const std::size_t k = one_by_one_ ? contacts_.append() : filler_.place(sphere, -1);
         const auto kind = static_cast<ContactKind>(touch_.kind[lane]);
         const bool is_impact = kind == ContactKind::impact;
-        contacts_.copy(k, contact_, static_cast<std::size_t>(lane),
+        contacts_.copy(k, contact_, static_cast<std::size_t>(lane), touch_.inverse_mass_sum[lane],
             {.gap = gap,
                 .wall_level = wall_level_[lane],
                 .slot = slot,

@@ -27,25 +27,17 @@ bool on_a_nearer_patch(
 
 } // namespace
 
-void find_wall_points(const PlacedWall& wall, const std::int32_t* patches, std::size_t count, const Vec3& x,
-    double radius, std::vector<WallPoint>& points)
+void keep_local_minima(const PlacedWall& wall, double radius, std::vector<WallPoint>& near)
 {
-    if (count == 1) {
-        const auto at = wall.nearest_point(static_cast<std::size_t>(patches[0]), x);
-        if (at.distance <= radius) points.push_back(at);
-        return;
-    }
-    std::vector<WallPoint> near;
-    for (std::size_t k = 0; k < count; ++k) {
-        const auto at = wall.nearest_point(static_cast<std::size_t>(patches[k]), x);
-        if (at.distance <= radius) near.push_back(at);
-    }
+    if (near.size() < 2) return;
     const double tolerance = same_point * radius;
+    std::vector<WallPoint> points;
     for (const auto& candidate : near) {
         const bool known = std::any_of(points.begin(), points.end(),
             [&](const WallPoint& p) { return (p.point - candidate.point).norm() <= tolerance; });
         if (!known && !on_a_nearer_patch(candidate, near, wall, tolerance)) points.push_back(candidate);
     }
+    near = std::move(points);
 }
 
 void match_carried(Carried& carried, WallPair& pair, const std::vector<WallPoint>& points)

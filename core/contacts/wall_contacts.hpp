@@ -9,11 +9,10 @@
 namespace talus
 {
 
-/// The places where a ball of this radius round x touches a wall: the local minima of the distance over the listed
-/// patches. Where patches join, the nearest point of one that lies on a nearer one is no contact, and a point shared by
-/// several is one contact, so an edge or a vertex carries one contact's worth of force.
-void find_wall_points(const PlacedWall& wall, const std::int32_t* patches, std::size_t count, const Vec3& x,
-    double radius, std::vector<WallPoint>& points);
+/// Of the nearest points of patches that a ball of this radius meets, keeps those where it touches the wall: the local
+/// minima of the distance. Where patches join, the nearest point of one that lies on a nearer one is no contact, and a
+/// point shared by several is one contact, so an edge or a vertex carries one contact's worth of force.
+void keep_local_minima(const PlacedWall& wall, double radius, std::vector<WallPoint>& near);
 
 /// Brings what a wall pair carries into the order of its new contacts: each takes the impulse of the old contact whose
 /// normal is nearest to its own, the nearest pairs first; the rest is dropped.

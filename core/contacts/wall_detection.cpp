@@ -30,62 +30,79 @@ Vec3 WallDetection::place(std::int32_t sphere) const
 const std::vector<WallMeeting>& WallDetection::find(std::span<WallPair> pairs)
 {
     meetings_.clear();
+    now_.clear();
     const std::int32_t sphere = pairs.front().sphere;
-    const Vec3 x = place(sphere);
+    x_ = place(sphere);
     const double radius = state_.radius(sphere);
     for (WallPair& pair : pairs)
-        if (walls_[pair.wall].stands()) add_points(pair, x, radius + touching_gap * step_.law.min_diameter);
+        if (walls_[pair.wall].stands()) add_touching(pair, radius + touching_gap * step_.law.min_diameter);
     drop_hidden(0, 0, radius);
     const std::size_t touching = meetings_.size();
-    for (WallPair& pair : pairs)
-        if (walls_[pair.wall].stands()) add_gaps(pair, x, touching);
+    const WallPoint* now = now_.data();
+    for (WallPair& pair : pairs) {
+        if (!walls_[pair.wall].stands()) continue;
+        add_gaps(pair, {now, pair.patches}, touching);
+        now += pair.patches;
+    }
     if (meetings_.size() > touching) {
         drop_hidden(touching, touching, radius);
-        std::ranges::stable_sort(meetings_, {}, [](const WallMeeting& meeting) { return meeting.pair; });
+        const auto pair_of = [](const WallMeeting& meeting) { return meeting.pair; };
+        if (!std::ranges::is_sorted(meetings_, {}, pair_of)) std::ranges::stable_sort(meetings_, {}, pair_of);
     }
     return meetings_;
 }
 
-void WallDetection::add_points(WallPair& pair, const Vec3& x, double radius)
+void WallDetection::add_touching(WallPair& pair, double reach)
 {
+    const PlacedWall& wall = walls_[pair.wall];
     points_.clear();
-    find_wall_points(walls_[pair.wall], network_.list.patches.data() + pair.first, pair.patches, x, radius, points_);
+    for (std::uint32_t k = 0; k < pair.patches; ++k) {
+        now_.push_back(wall.nearest_point(static_cast<std::size_t>(network_.list.patches[pair.first + k]), x_));
+        if (now_.back().distance <= reach) points_.push_back(now_.back());
+    }
+    keep_local_minima(wall, reach, points_);
     for (const WallPoint& at : points_) meetings_.push_back({&pair, at});
 }
 
 /// Gaps that close within the horizon, or are small. @param touching so many meetings are none
-void WallDetection::add_gaps(WallPair& pair, const Vec3& x, std::size_t touching)
+void WallDetection::add_gaps(WallPair& pair, std::span<const WallPoint> now, std::size_t touching)
 {
-    const std::vector<WallMeeting> known(meetings_.begin(), meetings_.begin() + static_cast<std::ptrdiff_t>(touching));
-    const auto touched = [&](std::int32_t patch) {
-        return std::ranges::any_of(
-            known, [&](const WallMeeting& meeting) { return meeting.pair == &pair && meeting.at.patch == patch; });
-    };
-    const std::int32_t* patches = network_.list.patches.data() + pair.first;
-    if (pair.patches == 1 && touched(patches[0])) return;
     const PlacedWall& wall = walls_[pair.wall];
     const Motion& m = state_.motion[pair.sphere];
-    Vec3 velocity = free_velocity(wall, m, x, static_cast<std::size_t>(patches[0]));
+    Vec3 velocity = free_velocity(wall, m, static_cast<std::size_t>(now.front().patch));
     // What bears the sphere lets it sink no further: else it would meet the rims of what is level with it.
-    for (const WallMeeting& meeting : known)
-        velocity -= std::min(0.0, meeting.at.normal.dot(velocity)) * meeting.at.normal;
-    const double reach = std::max(step_.reach, step_.horizon * velocity.norm());
-    const std::size_t first = meetings_.size();
-    add_points(pair, x + step_.law.h * velocity, m.radius + reach);
-    for (std::size_t k = first; k < meetings_.size(); ++k)
-        meetings_[k].at = nearest_on_path(wall, meetings_[k].at, x, velocity);
-    const auto is_none = [&](const WallMeeting& meeting) {
-        const double gap = meeting.at.normal.dot(x - meeting.at.point) - m.radius;
-        const double u_n = meeting.at.normal.dot(velocity);
-        return touched(meeting.at.patch) || (gap > step_.reach && gap + step_.horizon * u_n > 0.0);
+    for (std::size_t k = 0; k < touching; ++k) {
+        const Vec3& normal = meetings_[k].at.normal;
+        velocity -= std::min(0.0, normal.dot(velocity)) * normal;
+    }
+    const double speed = velocity.norm(), reach = m.radius + std::max(step_.reach, step_.horizon * speed);
+    const auto is_near = [&](const WallPoint& at) { return at.distance <= reach + step_.law.h * speed; };
+    const auto touched = [&](const WallPoint& at) {
+        return std::any_of(meetings_.begin(), meetings_.begin() + static_cast<std::ptrdiff_t>(touching),
+            [&](const WallMeeting& meeting) { return meeting.pair == &pair && meeting.at.patch == at.patch; });
     };
-    meetings_.erase(std::remove_if(meetings_.begin() + static_cast<std::ptrdiff_t>(first), meetings_.end(), is_none),
-        meetings_.end());
+    if (std::ranges::none_of(now, [&](const WallPoint& at) { return is_near(at) && !touched(at); })) return;
+
+    points_.clear();
+    for (const WallPoint& at : now) {
+        if (!is_near(at)) continue;
+        points_.push_back(wall.nearest_point(static_cast<std::size_t>(at.patch), x_ + step_.law.h * velocity));
+        if (points_.back().distance > reach) points_.pop_back();
+    }
+    keep_local_minima(wall, reach, points_);
+    for (const WallPoint& at_end : points_) {
+        if (touched(at_end)) continue;
+        const WallPoint at =
+            nearest_on_path(wall, *std::ranges::find(now, at_end.patch, &WallPoint::patch), at_end, velocity);
+        const double gap = at.normal.dot(x_ - at.point) - m.radius, u_n = at.normal.dot(velocity);
+        if (gap <= step_.reach || gap + step_.horizon * u_n <= 0.0) meetings_.push_back({&pair, at});
+    }
 }
 
 /// Drops meetings from `from` on that lie behind a nearer one of them, or behind one of the first `behind_all`.
 void WallDetection::drop_hidden(std::size_t from, std::size_t behind_all, double radius)
 {
+    if (meetings_.size() - from + behind_all < 2) return;
     const auto is_hidden = [&](std::size_t k) {
         const WallPoint& point = meetings_[k].at;
         for (std::size_t j = 0; j < meetings_.size(); ++j) {
@@ -97,32 +114,32 @@ void WallDetection::drop_hidden(std::size_t from, std::size_t behind_all, double
         }
         return false;
     };
-    if (meetings_.size() - from + behind_all < 2) return;
-    std::vector<WallMeeting> seen(meetings_.begin(), meetings_.begin() + static_cast<std::ptrdiff_t>(from));
+    hidden_.assign(meetings_.size(), 0);
+    for (std::size_t k = from; k < meetings_.size(); ++k) hidden_[k] = is_hidden(k);
+    auto kept = meetings_.begin() + static_cast<std::ptrdiff_t>(from);
     for (std::size_t k = from; k < meetings_.size(); ++k)
-        if (!is_hidden(k)) seen.push_back(meetings_[k]);
-    meetings_ = std::move(seen);
+        if (hidden_[k] == 0) *kept++ = meetings_[k];
+    meetings_.erase(kept, meetings_.end());
 }
 
 /// Of the sphere against the wall's material at its place, if nothing touched them [m/s].
-Vec3 WallDetection::free_velocity(const PlacedWall& wall, const Motion& motion, const Vec3& x, std::size_t patch) const
+Vec3 WallDetection::free_velocity(const PlacedWall& wall, const Motion& motion, std::size_t patch) const
 {
     const Vec3 free = motion.velocity + step_.law.h * model_.gravity;
-    return wall.moves() ? Vec3(free - wall.velocity(patch, x) - wall.gain()) : free;
+    return wall.moves() ? Vec3(free - wall.velocity(patch, x_) - wall.gain()) : free;
 }
 
-/// The nearest point of the patch to the path from x, which ends where `at_end` is seen from.
+/// The nearest point of the patch to the path, which ends where `at_end` is seen from.
 WallPoint WallDetection::nearest_on_path(
-    const PlacedWall& wall, const WallPoint& at_end, const Vec3& x, const Vec3& velocity) const
+    const PlacedWall& wall, const WallPoint& now, const WallPoint& at_end, const Vec3& velocity) const
 {
     if (at_end.normal.dot(velocity) <= 0.0) return at_end;
-    const auto patch = static_cast<std::size_t>(at_end.patch);
+    if (now.normal.dot(velocity) >= 0.0) return now;
     double early = 0.0, late = step_.law.h;
-    WallPoint at = wall.nearest_point(patch, x);
-    if (at.normal.dot(velocity) >= 0.0) return at;
+    WallPoint at = now;
     for (int k = 0; k < halvings; ++k) {
         const double middle = 0.5 * (early + late);
-        at = wall.nearest_point(patch, x + middle * velocity);
+        at = wall.nearest_point(static_cast<std::size_t>(now.patch), x_ + middle * velocity);
         (at.normal.dot(velocity) < 0.0 ? early : late) = middle;
     }
     return at;
@@ -133,12 +150,11 @@ WallTouch WallDetection::touch(const WallMeeting& meeting, std::uint32_t slot) c
     const WallPair& pair = *meeting.pair;
     const PlacedWall& wall = walls_[pair.wall];
     const Motion& m = state_.motion[pair.sphere];
-    const Vec3 x = place(pair.sphere);
     const Vec3& n = meeting.at.normal;
-    const double gap = n.dot(x - meeting.at.point) - m.radius;
+    const double gap = n.dot(x_ - meeting.at.point) - m.radius;
     const auto patch = static_cast<std::size_t>(meeting.at.patch);
-    const WallRow row = wall.moves() ? WallRow{wall.velocity(patch, x - m.radius * n), wall.spin()} : WallRow{};
-    const double gain = wall.moves() ? n.dot(row.velocity - wall.velocity_before(patch, x - m.radius * n)) : 0.0;
+    const WallRow row = wall.moves() ? WallRow{wall.velocity(patch, x_ - m.radius * n), wall.spin()} : WallRow{};
+    const double gain = wall.moves() ? n.dot(row.velocity - wall.velocity_before(patch, x_ - m.radius * n)) : 0.0;
     const double u_n = n.dot(m.velocity - row.velocity);
     const double u_n_ahead = u_n + step_.law.h * n.dot(model_.gravity) - n.dot(wall.gain());
     const double wall_inverse_mass = wall.is_piston() ? 1.0 / model_.pistons[wall.wall().piston].mass : 0.0;

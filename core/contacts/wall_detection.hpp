@@ -57,15 +57,18 @@ private:
     const Model& model_;
     const std::vector<PlacedWall>& walls_;
     const StepConstants& step_;
+    Vec3 x_ = Vec3::Zero();      ///< of the sphere that is looked at …
+    std::vector<WallPoint> now_; ///< … and where it is nearest to the patches of its walls
     std::vector<WallMeeting> meetings_;
     std::vector<WallPoint> points_;
+    std::vector<std::uint8_t> hidden_;
 
-    void add_points(WallPair& pair, const Vec3& x, double radius);
-    void add_gaps(WallPair& pair, const Vec3& x, std::size_t touching);
+    void add_touching(WallPair& pair, double reach);
+    void add_gaps(WallPair& pair, std::span<const WallPoint> now, std::size_t touching);
     void drop_hidden(std::size_t from, std::size_t behind_all, double radius);
-    Vec3 free_velocity(const PlacedWall& wall, const Motion& motion, const Vec3& x, std::size_t patch) const;
+    Vec3 free_velocity(const PlacedWall& wall, const Motion& motion, std::size_t patch) const;
     WallPoint nearest_on_path(
-        const PlacedWall& wall, const WallPoint& at_end, const Vec3& x, const Vec3& velocity) const;
+        const PlacedWall& wall, const WallPoint& now, const WallPoint& at_end, const Vec3& velocity) const;
     WallTouch touch(const WallMeeting& meeting, std::uint32_t slot) const;
 };
 

@@ -33,12 +33,11 @@ struct SweepKernel {
     Pass warm_start = nullptr; ///< v ← v + M⁻¹ Gᵀ λ; the sum of sizes is that of these λ
 };
 
-/// What the contacts of a pack leave.
-struct HandedOn {
-    double cone_violation = 0.0;  ///< worst |λ_t| − μ λ_n [N s], at least 0
-    double stored_energy = 0.0;   ///< in springs [J]
-    double push_out_energy = 0.0; ///< of contacts without one [J]
-    unsigned deep_lanes = 0;      ///< as bits
+/// What contacts leave, each lane by itself, so that sums do not depend on the instruction set.
+struct alignas(64) HandedOn {
+    double cone_violation[pack_size] = {};  ///< worst |λ_t| − μ λ_n [N s], at least 0
+    double stored_energy[pack_size] = {};   ///< in springs [J]
+    double push_out_energy[pack_size] = {}; ///< of contacts without one [J]
 };
 
 /// What makes contacts of touches.
@@ -54,9 +53,9 @@ struct TouchKernel {
     /// Makes contacts of touches that have been found.
     void (*make_contacts)(ContactPack& contact, TouchPack& touch, const StepConstants& step) = nullptr;
     /// Stores what the contacts of a pack between spheres hand on. Touch records of those that overlap by more than
-    /// jammed_overlap stay as they are, and their lanes are reported. @param carried as in SphereNumbers
-    HandedOn (*hand_on)(
-        const ContactPack& contact, RecordPack& record, const LawOfStep& law, double* carried) = nullptr;
+    /// jammed_overlap stay as they are, and their lanes are returned, as bits. @param carried as in SphereNumbers
+    unsigned (*hand_on)(const ContactPack& contact, RecordPack& record, const LawOfStep& law, double* carried,
+        HandedOn& handed) = nullptr;
 };
 
 /// The kernels for one instruction set, the sweep's by Rows::index.

@@ -98,6 +98,18 @@ template <class N> struct ContactEvent {
     Answer<N> struck;   ///< it was an impact then
 };
 
+/// Whether it is so for one of them at least: what only these need is not worked out for none.
+template <class A> [[gnu::always_inline]] inline bool any_of(const A& answer)
+{
+    if constexpr (sizeof(A) == sizeof(bool)) {
+        return answer;
+    } else {
+        bool any = false;
+        for (std::size_t lane = 0; lane < sizeof(A) / sizeof answer[0]; ++lane) any |= answer[lane] != 0;
+        return any;
+    }
+}
+
 template <class N> [[gnu::always_inline]] inline N smaller(const N& a, const N& b)
 {
     return b < a ? b : a;
@@ -121,6 +133,7 @@ template <class N>
 template <class N>
 [[gnu::always_inline]] inline N feedback_share(const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
 {
+    if (step.parts == 1.0) return N{} + 1.0;
     const double parts_squared = step.parts * step.parts;
     return smaller<N>(N{} + 1.0, compliance / (parts_squared * sigma_per_sweep / step.min_sweeps * inverse_mass_sum));
 }
@@ -131,8 +144,9 @@ template <class N>
 [[gnu::always_inline]] inline N spring_energy(
     const N& kappa, const N& u_n, const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
 {
-    const N share = feedback_share<N>(compliance, inverse_mass_sum, step), way = kappa / step.h;
-    return (2.0 * upsilon * share * way * (way + u_n) + 0.25 * u_n * u_n) / compliance;
+    const N share = feedback_share<N>(compliance, inverse_mass_sum, step);
+    const double per_square = 2.0 * upsilon / (step.h * step.h);
+    return (per_square * share * kappa * (kappa + step.h * u_n) + 0.25 * u_n * u_n) / compliance;
 }
 
 /// When two spheres that move so touch: infinite if never, negative if they overlap and approach [s].
@@ -176,6 +190,7 @@ template <class N> [[gnu::always_inline]] inline N rigid_compliance(const Contac
 /// How many times stiffer a contact is that yields: none is as deep as the centre of its smaller sphere.
 template <class N> [[gnu::always_inline]] inline N stiffening(const ContactEvent<N>& event)
 {
+    if (!any_of(-event.gap > (0.5 - stiffening_rest) * event.diameter)) return N{} + 1.0;
     const N rest = larger<N>(N{} + least_rest, 0.5 + event.gap / event.diameter);
     const N growth = larger<N>(N{} + 1.0, stiffening_rest / rest);
     return growth * growth;
@@ -260,7 +275,7 @@ template <class N>
 {
     const N none = {}, infinite = none + __builtin_inf(), least = none + touching_gap * step.min_diameter;
     const N compliance = spring_compliance<N>(event.stiffness, event.inverse_mass_sum, step);
-    const N share = step.parts > 1.0 ? feedback_share<N>(compliance, event.inverse_mass_sum, step) : none + 1.0;
+    const N share = feedback_share<N>(compliance, event.inverse_mass_sum, step);
     const N per_way = 4.0 * upsilon / step.h * share; // of feedback: the speed that it asks for, by κ
 
     const N most = elastic_overlap<N>(event, step);
@@ -333,10 +348,13 @@ template <class N>
 [[gnu::always_inline]] inline N compression_after(
     const N& kappa, const N& gap, const N& u_n, const N& impulse, const N& restitution, const LawOfStep& step)
 {
-    const N pushing = smaller<N>(N{} + step.push_out_speed, (-gap - kappa) / step.h);
-    const N fast = larger<N>(N{}, u_n - step.elastic_speed - larger<N>(N{}, pushing));
-    const N e = larger<N>(N{} + least_restitution, restitution);
-    const N gives_way = fast * larger<N>(N{}, 1.0 / (e * e) - 1.0);
+    N gives_way = {};
+    if (any_of(u_n > step.elastic_speed)) {
+        const N pushing = smaller<N>(N{} + step.push_out_speed, (-gap - kappa) / step.h);
+        const N fast = larger<N>(N{}, u_n - step.elastic_speed - larger<N>(N{}, pushing));
+        const N e = larger<N>(N{} + least_restitution, restitution);
+        gives_way = fast * larger<N>(N{}, 1.0 / (e * e) - 1.0);
+    }
     const N after = kappa - step.h * (u_n + gives_way);
     return ((impulse > 0.0) & (after > 0.0)) ? after : N{};
 }

@@ -131,6 +131,13 @@ template <int width, bool wall, class R, bool full> struct Contacts {
         return u;
     }
 
+    /// W
+    [[gnu::always_inline]] Numbers<width> inverse_mass_sum() const
+    {
+        if constexpr (wall) return a.inverse_mass();
+        return a.inverse_mass() + b.inverse_mass();
+    }
+
     /// v ← v + M⁻¹ Gᵀ p.
     [[gnu::always_inline]] void apply(const Vector<width>& p)
     {
@@ -193,7 +200,7 @@ template <int width, bool wall, class R, bool full> struct Contacts {
     template <bool apply_change> [[gnu::always_inline]] void relax(double relaxation, Sums<width>& sums)
     {
         const int group = first / width;
-        const Numbers<width> weight = load<width>(pack.inverse_mass_sum + first);
+        const Numbers<width> weight = inverse_mass_sum();
         const Vector<width> impulse = Vector<width>::load(pack.impulse, first);
         const Vector<width> next = solved(impulse, relaxation), change = next - impulse;
         sums.change[group] += weight * change.dot(change);
@@ -219,7 +226,7 @@ template <int width, bool wall, class R, bool full> struct Contacts {
     {
         const int group = first / width;
         const Vector<width> impulse = Vector<width>::load(pack.impulse, first);
-        sums.size[group] += load<width>(pack.inverse_mass_sum + first) * impulse.dot(impulse);
+        sums.size[group] += inverse_mass_sum() * impulse.dot(impulse);
         apply(impulse);
         if constexpr (R::rolling) {
             const Vector<width> turn = Vector<width>::load(rolling->impulse, first);

@@ -112,7 +112,7 @@ template <int width>
     const Flags<width> within = (gap <= step.reach) | (gap + step.horizon * u_n <= 0.0);
     normal.store(contact.normal, first);
     store<width>(contact.arm_scale + first, distance_then / radii);
-    store<width>(contact.inverse_mass_sum + first, a[3] + b[3]);
+    store<width>(touch.inverse_mass_sum + first, a[3] + b[3]);
     store<width>(touch.gap + first, gap);
     store<width>(touch.diameter + first, 2.0 * smaller<Numbers<width>>(a[7], b[7]));
     store<width>(touch.reduced_radius + first, a[7] * b[7] / radii);
@@ -154,7 +154,7 @@ template <int width>
     };
     const Vector<width> normal = Vector<width>::load(contact.normal, first);
     const Vector<width> carried = Vector<width>::load(touch.carried, first);
-    const N w = number(contact.inverse_mass_sum), arm_scale = number(contact.arm_scale);
+    const N w = number(touch.inverse_mass_sum), arm_scale = number(contact.arm_scale);
     const F pushed = load_flags<width>(touch.pushed + first);
     const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.reduced_radius),
         number(touch.u_n), number(touch.u_n_before), number(touch.closes), w, number(touch.restitution),
@@ -177,16 +177,16 @@ template <int width>
     put(contact.parting, law.parting);
     put(contact.normal_mass, 1.0 / (w + law.compliance));
     put(contact.tangent_mass, 1.0 / (w * (1.0 + step.inverse_inertia * arm_scale * arm_scale)));
-    put(contact.inverse_mass_sum, w);
 
     const N spring = spring_compliance<N>(event.stiffness, w, step.law);
     const N least = none + touching_gap * step.law.min_diameter;
     const F keeps = within_reach & (law.compression > none), stored = keeps & (event.compression > least);
-    const N energy = spring_energy<N>(law.compression, event.u_n_before, spring, w, step.law);
-    const N energy_before = spring_energy<N>(law.compression - law.grown, event.u_n_before, spring, w, step.law);
-    const N pushed_alone = spring_energy<N>(law.compression, none, spring, w, step.law);
-    put(touch.stored_energy, stored ? energy : (keeps ? pushed_alone : none));
-    put(touch.push_out_energy, stored ? energy - energy_before : (keeps ? pushed_alone : none));
+    // What was not stored before is pushed in.
+    const N u_stored = stored ? event.u_n_before : none, pressed = stored ? law.compression - law.grown : none;
+    const N energy = spring_energy<N>(law.compression, u_stored, spring, w, step.law);
+    const N energy_before = spring_energy<N>(pressed, u_stored, spring, w, step.law);
+    put(touch.stored_energy, keeps ? energy : none);
+    put(touch.push_out_energy, keeps ? energy - energy_before : none);
     put(touch.spring, spring);
     put(touch.push, law.push);
     put(touch.strain, -event.gap / elastic_overlap<N>(event, step.law));
@@ -251,6 +251,7 @@ template <int width>
     store<width>(sums.worst_strain + first, larger<Numbers<width>>(before, within_reach ? strain : none));
 
     store<width>(record.gap + first, gap);
+    store<width>(record.inverse_mass_sum + first, load<width>(touch.inverse_mass_sum + first));
     store_floats<width>(record.compression + first, load<width>(touch.compression + first));
     store_floats<width>(record.spring + first, load<width>(touch.spring + first));
     store_floats<width>(record.push + first, load<width>(touch.push + first));
@@ -282,11 +283,12 @@ PackImpacts touch_spheres(
 }
 
 template <int width>
-HandedOn hand_on(const ContactPack& contact, RecordPack& record, const LawOfStep& law, double* carried)
+unsigned hand_on(
+    const ContactPack& contact, RecordPack& record, const LawOfStep& law, double* carried, HandedOn& handed)
 {
     using N = Numbers<width>;
     using F = Flags<width>;
-    HandedOn handed;
+    unsigned deep_lanes = 0;
 #pragma GCC unroll 4
     for (int first = 0; first < pack_size; first += width) {
         const Vector<width> normal = Vector<width>::load(contact.normal, first);
@@ -295,7 +297,7 @@ HandedOn hand_on(const ContactPack& contact, RecordPack& record, const LawOfStep
         const Vector<width> tangent = impulse - normal * along;
         const N excess = root<width>(tangent.dot(tangent)) - load<width>(contact.friction + first) * along;
 
-        const N spring = load_floats<width>(record.spring + first), w = load<width>(contact.inverse_mass_sum + first);
+        const N spring = load_floats<width>(record.spring + first), w = load<width>(record.inverse_mass_sum + first);
         const N u_n = solved_velocity<N>(load<width>(contact.target + first), load<width>(contact.compliance + first),
             load<width>(contact.parting + first), along);
         const N gap = load<width>(record.gap + first);
@@ -305,11 +307,13 @@ HandedOn hand_on(const ContactPack& contact, RecordPack& record, const LawOfStep
         const N pushed = load_floats<width>(record.push + first) * along;
         const F kind = widened<width>(reinterpret_cast<const std::uint8_t*>(record.kind) + first);
         const F keeps_spring = kappa > touching_gap * law.min_diameter;
-        for (int lane = 0; lane < width; ++lane) {
-            handed.cone_violation = handed.cone_violation < excess[lane] ? excess[lane] : handed.cone_violation;
-            handed.stored_energy += keeps_spring[lane] ? energy[lane] : 0.0;
-            handed.push_out_energy += pushed[lane];
-        }
+        const auto put = [&](double* sums, const N& numbers) __attribute__((always_inline))
+        {
+            store<width>(sums + first, numbers);
+        };
+        put(handed.cone_violation, larger<N>(load<width>(handed.cone_violation + first), excess));
+        put(handed.stored_energy, load<width>(handed.stored_energy + first) + (keeps_spring ? energy : none));
+        put(handed.push_out_energy, load<width>(handed.push_out_energy + first) + pushed);
 
         const N most = load_floats<width>(record.hands_on + first);
         const N share = along > most ? most / along : none + 1.0;
@@ -318,7 +322,7 @@ HandedOn hand_on(const ContactPack& contact, RecordPack& record, const LawOfStep
             (along > 0.0) & (kind == std::int64_t{2} ? F{} + 2 : (kind == std::int64_t{1} ? F{} + 3 : F{} + 1));
         const F touch = is_deep ? widened<width>(record.touch + first) : now;
         narrow<width>(record.touch + first, touch);
-        handed.deep_lanes |= bits<width>(is_deep) << first;
+        deep_lanes |= bits<width>(is_deep) << first;
 
         const CarriedRecords<width> carries{impulse * share, handed_on<N>(kappa, u_n, law), touch};
         double* records[width];
@@ -327,8 +331,7 @@ HandedOn hand_on(const ContactPack& contact, RecordPack& record, const LawOfStep
                 contact.a[first + lane] < 0 ? nullptr : carried + std::size_t{4} * record.slot[first + lane];
         carries.scatter(records);
     }
-    handed.deep_lanes &= record.in_problem;
-    return handed;
+    return deep_lanes & record.in_problem;
 }
 
 template <int width> constexpr TouchKernel touches()

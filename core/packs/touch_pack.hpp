@@ -19,20 +19,21 @@ struct StepConstants {
 
 /// Up to eight touches on their way to contacts: what detection has found, lane beside lane, and what the laws make of
 /// it. The contact itself, with the numbers of its solve, stands in a ContactPack beside it: found there are a, b,
-/// normal, arm_scale, friction and inverse_mass_sum, and the rest is made.
+/// normal, arm_scale and friction, and the rest is made.
 struct alignas(64) TouchPack {
     double gap[pack_size];
-    double diameter[pack_size];       ///< of the smaller sphere [m]
-    double reduced_radius[pack_size]; ///< r_a r_b/(r_a + r_b); at a wall r_a [m]
-    double u_n[pack_size];            ///< of v⁽⁰⁾ [m/s] …
-    double u_n_before[pack_size];     ///< … against the velocity of the wall in the step before [m/s]
-    double closes[pack_size];         ///< when the gap does so, with v⁽¹⁾ [s]
-    double restitution[pack_size];    ///< e
-    double stiffness[pack_size];      ///< k [N/m]
-    double carried[3][pack_size];     ///< impulse of the step before [N s] …
-    double compression[pack_size];    ///< … its κ, and then that of this step [m]
-    std::int64_t struck[pack_size];   ///< … it was an impact: −1 for yes, 0 for no
-    std::int64_t pushed[pack_size];   ///< … it had a gap: −1 for yes, 0 for no
+    double diameter[pack_size];         ///< of the smaller sphere [m]
+    double reduced_radius[pack_size];   ///< r_a r_b/(r_a + r_b); at a wall r_a [m]
+    double inverse_mass_sum[pack_size]; ///< W [1/kg]
+    double u_n[pack_size];              ///< of v⁽⁰⁾ [m/s] …
+    double u_n_before[pack_size];       ///< … against the velocity of the wall in the step before [m/s]
+    double closes[pack_size];           ///< when the gap does so, with v⁽¹⁾ [s]
+    double restitution[pack_size];      ///< e
+    double stiffness[pack_size];        ///< k [N/m]
+    double carried[3][pack_size];       ///< impulse of the step before [N s] …
+    double compression[pack_size];      ///< … its κ, and then that of this step [m]
+    std::int64_t struck[pack_size];     ///< … it was an impact: −1 for yes, 0 for no
+    std::int64_t pushed[pack_size];     ///< … it had a gap: −1 for yes, 0 for no
 
     std::int64_t kind[pack_size];      ///< made: ContactKind …
     double spring[pack_size];          ///< … Σ_n of its spring [1/kg]

@@ -39,7 +39,7 @@ struct Meetings {
 bool holds(const TileContacts& contacts, std::size_t k)
 {
     const ContactKind kind = contacts.kind(k);
-    return kind != ContactKind::deferred && !(kind == ContactKind::bearing && contacts.geometry(k).touch.was_impact());
+    return kind != ContactKind::deferred && !(kind == ContactKind::bearing && contacts.touch(k).was_impact());
 }
 
 class MeetingSurvey
@@ -68,19 +68,17 @@ private:
     const Model& model_;
     const double h_;
 
-    bool is_struck(std::int32_t sphere) const { return contacts_.impacts[sphere].size > 0.0; }
-
     void hold(const TileContacts& walls)
     {
-        for (const std::size_t k : walls.indices())
+        for (const std::size_t k : walls.struck())
             if (holds(walls, k)) of[walls.a(k)].held = true;
     }
 
     void note(const TileContacts& spheres)
     {
-        for (const std::size_t k : spheres.indices()) {
+        for (const std::size_t k : spheres.struck()) {
             const auto [a, b] = std::pair(spheres.a(k), spheres.b(k));
-            if ((!is_struck(a) && !is_struck(b)) || !holds(spheres, k)) continue;
+            if (!holds(spheres, k)) continue;
             if (spheres.kind(k) != ContactKind::impact) {
                 of[a].held = of[b].held = true;
                 continue;
@@ -96,7 +94,7 @@ private:
 
     void keep_pairs(const TileContacts& spheres)
     {
-        for (const std::size_t k : spheres.indices()) {
+        for (const std::size_t k : spheres.struck()) {
             if (spheres.kind(k) != ContactKind::impact) continue;
             Meetings &a = of[spheres.a(k)], &b = of[spheres.b(k)];
             if (!a.meets_one() || !b.meets_one()) a.held = b.held = true;

@@ -20,12 +20,13 @@ constexpr double sliver = 1e-10;
 constexpr double same_place = 1e-6;
 
 /// The result for a thin wall: the normal points from the wall to x, whichever side that is.
-WallPoint thin_wall_point(const Vec3& nearest, const Vec3& x, const Vec3& normal_if_on_wall)
+/// @param normal_if_on_wall called where x is on it
+template <class Normal> WallPoint thin_wall_point(const Vec3& nearest, const Vec3& x, const Normal& normal_if_on_wall)
 {
     const Vec3 away = x - nearest;
     const double distance = away.norm();
     if (distance > 0.0) return {nearest, away / distance, distance};
-    return {nearest, normal_if_on_wall, 0.0};
+    return {nearest, normal_if_on_wall(), 0.0};
 }
 
 /// x in coordinates along and at right angles to an axis; `out` is a unit vector even on the axis.
@@ -51,7 +52,8 @@ WallPoint nearest(const Cylinder& tube, std::size_t, const Vec3& x)
 {
     const AxisFrame frame(x, tube.base, tube.axis);
     const double along = std::clamp(frame.along, 0.0, tube.height);
-    return thin_wall_point(tube.base + along * tube.axis + tube.radius * frame.out, x, -frame.out);
+    return thin_wall_point(
+        tube.base + along * tube.axis + tube.radius * frame.out, x, [&] { return Vec3(-frame.out); });
 }
 
 WallPoint nearest(const Cone& cone, std::size_t, const Vec3& x)
@@ -63,15 +65,15 @@ WallPoint nearest(const Cone& cone, std::size_t, const Vec3& x)
     const double t =
         std::clamp((frame.along * cone.height + (frame.radius - cone.base_radius) * slope) / length_squared, 0.0, 1.0);
     const Vec3 nearest_point = cone.base + t * cone.height * cone.axis + (cone.base_radius + t * slope) * frame.out;
-    const Vec3 inward = (slope * cone.axis - cone.height * frame.out) / std::sqrt(length_squared);
-    return thin_wall_point(nearest_point, x, inward);
+    return thin_wall_point(nearest_point, x,
+        [&] { return Vec3((slope * cone.axis - cone.height * frame.out) / std::sqrt(length_squared)); });
 }
 
 WallPoint nearest(const Disk& disk, std::size_t, const Vec3& x)
 {
     const AxisFrame frame(x, disk.center, disk.normal);
     const double out = std::clamp(frame.radius, disk.hole_radius, disk.radius);
-    return thin_wall_point(disk.center + out * frame.out, x, disk.normal);
+    return thin_wall_point(disk.center + out * frame.out, x, [&] { return disk.normal; });
 }
 
 WallPoint nearest(const Panels& panels, std::size_t patch, const Vec3& x)
@@ -80,8 +82,8 @@ WallPoint nearest(const Panels& panels, std::size_t patch, const Vec3& x)
     const Vec3 from_corner = x - panel.corner;
     const double s = std::clamp(from_corner.dot(panel.edge_a) / panel.edge_a.squaredNorm(), 0.0, 1.0);
     const double t = std::clamp(from_corner.dot(panel.edge_b) / panel.edge_b.squaredNorm(), 0.0, 1.0);
-    return thin_wall_point(
-        panel.corner + s * panel.edge_a + t * panel.edge_b, x, panel.edge_a.cross(panel.edge_b).normalized());
+    return thin_wall_point(panel.corner + s * panel.edge_a + t * panel.edge_b, x,
+        [&] { return panel.edge_a.cross(panel.edge_b).normalized(); });
 }
 
 /// The point of triangle abc nearest to x, by the region of the triangle's plane that x lies over (Ericson 2005,
@@ -116,7 +118,7 @@ WallPoint nearest(const Mesh& mesh, std::size_t patch, const Vec3& x)
     const double height = (x - vertex(0)).dot(normal);
     const Vec3 foot = x - height * normal;
     const bool over_it = (foot - nearest).squaredNorm() <= same_place * same_place * height * height;
-    return thin_wall_point(over_it ? foot : nearest, x, normal);
+    return thin_wall_point(over_it ? foot : nearest, x, [&] { return normal; });
 }
 
 WallPoint nearest(const Grains& grains, std::size_t patch, const Vec3& x)

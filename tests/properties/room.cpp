@@ -52,7 +52,11 @@ std::vector<Touch> touches(const World& world, double h, double within)
             patches.clear();
             points.clear();
             walls[w].patches_near(Box{x, x}.grown(r + within), patches);
-            find_wall_points(walls[w], patches.data(), patches.size(), x, r + within, points);
+            for (const std::int32_t patch : patches) {
+                points.push_back(walls[w].nearest_point(static_cast<std::size_t>(patch), x));
+                if (points.back().distance > r + within) points.pop_back();
+            }
+            keep_local_minima(walls[w], r + within, points);
             for (const WallPoint& at : points)
                 found.push_back({i, w, true, at.normal,
                     walls[w].velocity(static_cast<std::size_t>(at.patch), x - r * at.normal), at.distance - r});

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <numeric>
 
 using namespace talus;
 
@@ -19,11 +18,12 @@ using Triangle = std::array<std::int32_t, 3>;
 /// All contacts of a sphere with a shape, whatever patches are near.
 std::vector<WallPoint> contacts_of(const Shape& shape, const Vec3& x, double radius)
 {
-    std::vector<std::int32_t> patches(patch_count(shape));
-    std::iota(patches.begin(), patches.end(), 0);
-    std::vector<WallPoint> points;
     const Wall wall{"wall", shape};
-    find_wall_points(PlacedWall(wall, {}, 0.0), patches.data(), patches.size(), x, radius, points);
+    const PlacedWall placed(wall, {}, 0.0);
+    std::vector<WallPoint> points;
+    for (std::size_t patch = 0; patch < patch_count(shape); ++patch)
+        if (const WallPoint at = placed.nearest_point(patch, x); at.distance <= radius) points.push_back(at);
+    keep_local_minima(placed, radius, points);
     return points;
 }
 

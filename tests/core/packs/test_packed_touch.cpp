@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 namespace talus::test
 {
@@ -31,6 +32,7 @@ struct Touches {
     RecordPack record = {};
     TouchSums sums;
     PackImpacts impacts;
+    unsigned deep = 0; ///< lanes, as bits
 
     explicit Touches(std::uint64_t seed)
     {
@@ -125,7 +127,9 @@ struct Touches {
 
     HandedOn hand_on(const Kernels& kernels)
     {
-        return kernels.touch.hand_on(contact, record, step.law, reinterpret_cast<double*>(carried.data()));
+        HandedOn handed;
+        deep = kernels.touch.hand_on(contact, record, step.law, reinterpret_cast<double*>(carried.data()), handed);
+        return handed;
     }
 };
 
@@ -165,11 +169,8 @@ TEST_CASE("all instruction sets find the same touches and make the same contacts
         CHECK(other.impacts.lanes == same.impacts.lanes);
         CHECK(same_bytes(other.impacts.size, same.impacts.size));
         for (Touches* touches : {&other, &same}) touches->solve(seed);
-        const HandedOn told = other.hand_on(*kernels), same_told = same.hand_on(plain_kernels);
-        CHECK(told.cone_violation == same_told.cone_violation);
-        CHECK(told.stored_energy == same_told.stored_energy);
-        CHECK(told.push_out_energy == same_told.push_out_energy);
-        CHECK(told.deep_lanes == same_told.deep_lanes);
+        CHECK(same_bytes(other.hand_on(*kernels), same.hand_on(plain_kernels)));
+        CHECK(other.deep == same.deep);
         CHECK(same_bytes(other.record, same.record));
         for (std::size_t slot = 0; slot < pack_size; ++slot) CHECK(same_bytes(other.carried[slot], same.carried[slot]));
         for (const std::uint32_t candidates : {8u, 5u, 1u})
@@ -225,7 +226,7 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
         CAPTURE(lane);
         if (!all.holds(lane)) {
             for (const auto* row : {contact.target, contact.compliance, contact.normal_mass, contact.tangent_mass,
-                     contact.inverse_mass_sum, contact.impulse[0], contact.impulse[1], contact.impulse[2]})
+                     contact.impulse[0], contact.impulse[1], contact.impulse[2]})
                 CHECK(row[lane] == 0.0);
             CHECK_FALSE(all.is_struck(lane));
             for (const auto* sum : {all.sums.overlap, all.sums.stored_energy, all.sums.push_out_energy})
@@ -270,7 +271,7 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
         CHECK(contact.normal_mass[lane] == 1.0 / (w + law.compliance));
         const double s = contact.arm_scale[lane];
         CHECK(contact.tangent_mass[lane] == Approx(1.0 / (w * (1.0 + 2.5 * s * s))));
-        CHECK(contact.inverse_mass_sum[lane] == w);
+        CHECK(all.record.inverse_mass_sum[lane] == w);
 
         CHECK(all.record.compression[lane] == Approx(static_cast<float>(law.compression)));
         CHECK(all.record.spring[lane] == static_cast<float>(spring));
@@ -323,7 +324,7 @@ TEST_CASE("contacts hand on their impulses and what their springs keep, impacts 
     const double deep = jammed_overlap * all.step.law.min_diameter;
     const Touches solved = all;
     const LawOfStep& step = all.step.law;
-    const HandedOn told = all.hand_on(fastest_kernels());
+    const HandedOn left = all.hand_on(fastest_kernels());
     double worst = 0.0, stored = 0.0, pushed = 0.0;
     for (int lane = 0; lane < pack_size; ++lane) {
         CAPTURE(lane);
@@ -333,7 +334,7 @@ TEST_CASE("contacts hand on their impulses and what their springs keep, impacts 
         const double along = impulse.dot(solved.normal(lane)), most = solved.record.hands_on[lane];
         worst = std::max(worst, (impulse - along * solved.normal(lane)).norm() - contact.friction[lane] * along);
         const bool is_deep = solved.holds(lane) && -solved.record.gap[lane] > deep;
-        CHECK((told.deep_lanes >> lane & 1U) == is_deep);
+        CHECK((all.deep >> lane & 1U) == is_deep);
         if (!solved.holds(lane)) {
             CHECK(own.impulse == Vec3::Zero());
             CHECK(own.compression == 0.0F);
@@ -363,13 +364,14 @@ TEST_CASE("contacts hand on their impulses and what their springs keep, impacts 
         CHECK(own.compression == Approx(static_cast<float>(handed_on<double>(kappa, u_n, step))));
         CHECK((own.compression > 0.0F) == keeps);
         if (keeps)
-            stored +=
-                spring_energy<double>(kappa, u_n, solved.record.spring[lane], contact.inverse_mass_sum[lane], step);
+            stored += spring_energy<double>(
+                kappa, u_n, solved.record.spring[lane], solved.record.inverse_mass_sum[lane], step);
         pushed += static_cast<double>(solved.record.push[lane]) * along;
     }
-    CHECK(told.cone_violation == Approx(worst).margin(1e-18));
-    CHECK(told.stored_energy == Approx(stored).margin(1e-20));
-    CHECK(told.push_out_energy == Approx(pushed).margin(1e-20));
+    const auto sum = [](const double(&lanes)[pack_size]) { return std::accumulate(lanes, lanes + pack_size, 0.0); };
+    CHECK(*std::ranges::max_element(left.cone_violation) == Approx(worst).margin(1e-18));
+    CHECK(sum(left.stored_energy) == Approx(stored).margin(1e-20));
+    CHECK(sum(left.push_out_energy) == Approx(pushed).margin(1e-20));
 }
 
 TEST_CASE("a touch across the border of a cell is that of the nearest image", "[packed_touch][periodic]")
