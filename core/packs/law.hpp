@@ -242,7 +242,7 @@ inline double slow_parting(const LawOfStep& step)
 template <class N>
 [[gnu::always_inline]] inline N spring_parting(const ContactEvent<N>& event, const N& kappa, const LawOfStep& step)
 {
-    return larger<N>(slow_parting(step) + event.restitution * kappa / step.h, -event.u_n_before);
+    return larger<N>(slow_parting(step) + event.restitution * kappa * (1.0 / step.h), -event.u_n_before);
 }
 
 /// The law of a contact of `projected`: rigid, but the softer the more it overlaps. It bears as a spring that all of
@@ -254,7 +254,7 @@ template <class N>
     const Answer<N> open = !touches<N>(event.gap, step), yields = -event.gap > elastic_overlap<N>(event, step);
     const N push = rigid_push<N>(event, step), alone = smaller<N>(none, 2.0 * push - event.u_n_before);
     const N strength = -event.gap * (4.0 * upsilon / step.h);
-    return {open ? passive_target<N>(-event.gap / step.h, event.u_n_before) : larger<N>(alone, strength),
+    return {open ? passive_target<N>(-event.gap * (1.0 / step.h), event.u_n_before) : larger<N>(alone, strength),
         open ? none : rigid_compliance<N>(event) / stiffening<N>(event), open ? infinite : alone, none - infinite, none,
         open ? none : push, yields};
 }
@@ -289,7 +289,7 @@ template <class N>
 
     const N feedback = per_way * kappa, strength = per_way * -event.gap;
     const N pushing = smaller<N>(none + smaller(step.push_out_speed, step.elastic_speed), strength);
-    const N asks = open ? -event.gap / step.h : (yields ? pushing : feedback);
+    const N asks = open ? -event.gap * (1.0 / step.h) : (yields ? pushing : feedback);
     const N alone = passive_target<N>(asks, event.u_n_before);
     const N parting = is_spring ? spring_parting<N>(event, kappa, step) : infinite;
     return {yields ? larger<N>(alone, strength) : (is_spring ? feedback : alone),
@@ -322,15 +322,33 @@ inline double bearing_target(double gap, double u_n, const LawOfStep& step)
     return smaller(-larger(0.0, gap) / step.h, -u_n);
 }
 
-/// What a contact hands on of its κ, and what the next step makes of it: half of the way that its spheres go in a step
-/// is taken along the normal of before, and half along that of after, which a curved wall turns. 0: it has no spring.
-template <class N> [[gnu::always_inline]] inline N handed_on(const N& kappa_after, const N& u_n, const LawOfStep& step)
+/// What of a spring's energy is in its motion, as the square of a length: with c = 2 Υ share/(h² Σ_n) it holds
+/// c ((κ + ½ h u_n)² + this).
+template <class N>
+[[gnu::always_inline]] inline N moving_part(
+    const N& u_n, const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
 {
-    return kappa_after > touching_gap * step.min_diameter ? kappa_after + 0.5 * step.h * u_n : N{};
+    const N way = step.h * u_n, share = feedback_share<N>(compliance, inverse_mass_sum, step);
+    return way * way * (1.0 / (8.0 * upsilon * share) - 0.25);
 }
-template <class N> [[gnu::always_inline]] inline N taken_over(const N& handed, const N& u_n, const LawOfStep& step)
+
+/// What a contact hands on of its spring is the energy, as a length: when a curved wall turns the normal, u_n changes,
+/// and the next step makes that κ of it which holds as much. 0: it has no spring, or none could hold so little.
+template <class N, class Root>
+[[gnu::always_inline]] inline N handed_on(const N& kappa_after, const N& u_n, const N& compliance,
+    const N& inverse_mass_sum, const LawOfStep& step, Root root_of)
 {
-    return handed > 0.0 ? handed - 0.5 * step.h * u_n : N{};
+    const N middle = kappa_after + 0.5 * step.h * u_n;
+    const N length = root_of(middle * middle + moving_part<N>(u_n, compliance, inverse_mass_sum, step));
+    return kappa_after > touching_gap * step.min_diameter ? length : N{};
+}
+template <class N, class Root>
+[[gnu::always_inline]] inline N taken_over(
+    const N& handed, const N& u_n, const N& compliance, const N& inverse_mass_sum, const LawOfStep& step, Root root_of)
+{
+    const N left = handed * handed - moving_part<N>(u_n, compliance, inverse_mass_sum, step);
+    const N kappa = root_of(larger<N>(N{}, left)) - 0.5 * step.h * u_n;
+    return ((handed > 0.0) & (left > 0.0)) ? kappa : N{};
 }
 
 /// u_n⁺ of a solved row, by its impulse [m/s].

@@ -106,16 +106,16 @@ template <int width>
     const Numbers<width> distance_then = root<width>(then.dot(then));
     // Spheres with one centre are pushed apart along a fixed direction: any will do, but always the same.
     const Flags<width> separate = distance_then > 0.0;
-    const Numbers<width> divisor = separate ? distance_then : one;
-    const Vector<width> normal{then.x / divisor, then.y / divisor, separate ? then.z / divisor : one};
+    const Numbers<width> inverse = one / (separate ? distance_then : one), per_radii = one / radii;
+    const Vector<width> normal{then.x * inverse, then.y * inverse, separate ? then.z * inverse : one};
     const Numbers<width> gap = (ahead ? normal.dot(apart) : distance) - radii, u_n = normal.dot(velocity);
     const Flags<width> within = (gap <= step.reach) | (gap + step.horizon * u_n <= 0.0);
     normal.store(contact.normal, first);
-    store<width>(contact.arm_scale + first, distance_then / radii);
+    store<width>(contact.arm_scale + first, distance_then * per_radii);
     store<width>(touch.inverse_mass_sum + first, a[3] + b[3]);
     store<width>(touch.gap + first, gap);
     store<width>(touch.diameter + first, 2.0 * smaller<Numbers<width>>(a[7], b[7]));
-    store<width>(touch.reduced_radius + first, a[7] * b[7] / radii);
+    store<width>(touch.reduced_radius + first, a[7] * b[7] * per_radii);
     store<width>(touch.u_n + first, u_n); // gravity is the same for both
     store<width>(touch.u_n_before + first, u_n);
     store<width>(touch.closes + first, closes);
@@ -155,13 +155,14 @@ template <int width>
     const Vector<width> normal = Vector<width>::load(contact.normal, first);
     const Vector<width> carried = Vector<width>::load(touch.carried, first);
     const N w = number(touch.inverse_mass_sum), arm_scale = number(contact.arm_scale);
+    const N spring = spring_compliance<N>(number(touch.stiffness), w, step.law);
     const F pushed = load_flags<width>(touch.pushed + first);
     const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.reduced_radius),
         number(touch.u_n), number(touch.u_n_before), number(touch.closes), w, number(touch.restitution),
         number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts,
-        taken_over<N>(number(touch.compression), number(touch.u_n_before), step.law),
+        taken_over<N>(number(touch.compression), number(touch.u_n_before), spring, w, step.law, root<width>),
         load_flags<width>(touch.struck + first)};
-    const F closes = is_impact<N>(event, step.law), impact = closes & within_reach;
+    const F strikes = is_impact<N>(event, step.law), impact = strikes & within_reach;
     const NormalLaw<N> law = normal_law<N>(event, impact, step.law);
     const Vector<width> warm = warm_impulse<width>(carried, normal, number(contact.friction), impact);
 
@@ -178,12 +179,13 @@ template <int width>
     put(contact.normal_mass, 1.0 / (w + law.compliance));
     put(contact.tangent_mass, 1.0 / (w * (1.0 + step.inverse_inertia * arm_scale * arm_scale)));
 
-    const N spring = spring_compliance<N>(event.stiffness, w, step.law);
     const N least = none + touching_gap * step.law.min_diameter;
     const F keeps = within_reach & (law.compression > none), stored = keeps & (event.compression > least);
-    // What was not stored before is pushed in.
-    const N u_stored = stored ? event.u_n_before : none, pressed = stored ? law.compression - law.grown : none;
-    const N energy = spring_energy<N>(law.compression, u_stored, spring, w, step.law);
+    // What was not stored before is pushed in; what yields gives up of its spring, it does in this step.
+    const N u_stored = stored ? event.u_n_before : none;
+    const N borne = law.yields ? 0.5 * step.law.h * smaller<N>(none, event.u_n_before) : none;
+    const N kappa = law.compression - borne, pressed = stored ? kappa - law.grown : none;
+    const N energy = spring_energy<N>(kappa, u_stored, spring, w, step.law);
     const N energy_before = spring_energy<N>(pressed, u_stored, spring, w, step.law);
     put(touch.stored_energy, keeps ? energy : none);
     put(touch.push_out_energy, keeps ? energy - energy_before : none);
@@ -324,7 +326,8 @@ unsigned hand_on(
         narrow<width>(record.touch + first, touch);
         deep_lanes |= bits<width>(is_deep) << first;
 
-        const CarriedRecords<width> carries{impulse * share, handed_on<N>(kappa, u_n, law), touch};
+        const CarriedRecords<width> carries{
+            impulse * share, handed_on<N>(kappa, u_n, spring, w, law, root<width>), touch};
         double* records[width];
         for (int lane = 0; lane < width; ++lane)
             records[lane] =

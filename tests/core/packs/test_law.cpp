@@ -426,21 +426,31 @@ TEST_CASE("a spring gives back what it was pressed, and what e leaves of it wher
     CHECK(after(-infinity, -0.1, 0.1, 1.0) == 0.0);
 }
 
-TEST_CASE("what a spring hands on is the same κ again where its normal does not turn", "[law][compression]")
+TEST_CASE("what a spring hands on is its energy, and the same κ where its normal does not turn", "[law][compression]")
 {
-    const LawOfStep step = matched();
-    for (const double u_n : {-0.1, 0.0, 0.05}) {
-        const double handed = handed_on<double>(1e-4, u_n, step);
-        CHECK(taken_over<double>(handed, u_n, step) == Approx(1e-4));
-        // Turned, so that the sphere moves towards the wall by w more, it is pressed by half a step of that.
-        CHECK(taken_over<double>(handed, u_n - 0.01, step) == Approx(1e-4 + 0.5 * h * 0.01));
-    }
-    CHECK(handed_on<double>(0.0, 0.1, step) == 0.0); // no spring
-    CHECK(handed_on<double>(0.9e-9 * d, 0.1, step) == 0.0);
-    CHECK(taken_over<double>(0.0, -0.1, step) == 0.0);
+    LawOfStep step = matched();
+    step.parts = GENERATE(1.0, 4.0);
+    constexpr double w = 2.0, sigma = 0.1 * w;
+    const auto root = [](double square) { return std::sqrt(square); };
+    const auto hands_on = [&](double kappa, double u_n) { return handed_on<double>(kappa, u_n, sigma, w, step, root); };
+    const auto takes_over = [&](double handed, double u_n) {
+        return taken_over<double>(handed, u_n, sigma, w, step, root);
+    };
+    const auto energy = [&](double kappa, double u_n) { return spring_energy<double>(kappa, u_n, sigma, w, step); };
+    for (const double u_n : {-0.01, 0.0, 0.01})
+        for (const double turned : {u_n - 0.01, u_n, u_n + 0.01}) {
+            const double kappa = takes_over(hands_on(1e-4, u_n), turned);
+            REQUIRE(kappa > 0.0);
+            CHECK(energy(kappa, turned) == Approx(energy(1e-4, u_n)));
+            if (turned == u_n) CHECK(kappa == Approx(1e-4));
+        }
+    CHECK(takes_over(hands_on(1e-6, 0.0), 1.0) == 0.0); // no spring holds so little at that speed
+    CHECK(hands_on(0.0, 0.1) == 0.0);                   // no spring
+    CHECK(hands_on(0.9e-9 * d, 0.1) == 0.0);
+    CHECK(takes_over(0.0, -0.1) == 0.0);
     // A spring that a step has pressed is handed on as one, however fast.
     const double after = compression_after<double>(1e-6, -1e-6, -5.0, 0.1, 0.4, step);
-    CHECK(handed_on<double>(after, -5.0, step) == Approx(1e-6 + 0.5 * h * 5.0));
+    CHECK(takes_over(hands_on(after, -5.0), -5.0) == Approx(1e-6 + h * 5.0));
 }
 
 TEST_CASE("beside an impact a contact without a load closes to 0.4 smallest diameters at most", "[law][impacts]")
