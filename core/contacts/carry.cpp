@@ -122,7 +122,9 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
                 const WallRow wall = walls.wall(k);
                 const Vec3 impulse = walls.impulse(k);
                 outcome.wall_work += impulse.dot(wall.velocity);
-                outcome.wall_gain_work -= 0.5 * wall.gain * impulse.dot(walls.normal(k));
+                // An impact is judged by the velocity that the wall has now, all others by that of before.
+                if (walls.kind(k) != ContactKind::impact)
+                    outcome.wall_gain_work -= 0.5 * wall.gain * impulse.dot(walls.normal(k));
                 if (walls.has_rolling()) outcome.wall_work += walls.rolling_impulse(k).dot(walls.wall(k).spin);
             }
         outcome.from_walls = load_from(walls, state, h);

@@ -115,10 +115,15 @@ std::vector<Flight> find_flights(const ContactNetwork& network, const State& sta
     return flights;
 }
 
-void move_flights(const std::vector<Flight>& flights, State& state)
+double move_flights(const std::vector<Flight>& flights, State& state, const Vec3& gravity)
 {
-    for (const Flight& flight : flights)
-        state.position[flight.sphere] += flight.way - flight.instant * state.motion[flight.sphere].velocity;
+    double lifted = 0.0;
+    for (const Flight& flight : flights) {
+        const Vec3 shift = flight.way - flight.instant * state.motion[flight.sphere].velocity;
+        state.position[flight.sphere] += shift;
+        lifted -= state.mass(flight.sphere) * gravity.dot(shift);
+    }
+    return lifted;
 }
 
 } // namespace talus

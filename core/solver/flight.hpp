@@ -22,7 +22,8 @@ struct Flight {
 /// Finds the spheres in flight. Their contacts are laid where they touch.
 std::vector<Flight> find_flights(const ContactNetwork& network, const State& state, const Model& model, double h);
 
-/// x ← x + τ v⁽¹⁾ + (h − τ) v, for spheres in flight that have been moved by h v.
-void move_flights(const std::vector<Flight>& flights, State& state);
+/// x ← x + τ v⁽¹⁾ + (h − τ) v, for spheres in flight that have been moved by h v. Returns by what that lifts
+/// them: nothing, but where what they part from pushes one of a pair [J].
+double move_flights(const std::vector<Flight>& flights, State& state, const Vec3& gravity);
 
 } // namespace talus

@@ -43,7 +43,7 @@ Vec3 way_of(const Piston& piston, const PlacedWall& began, const State& state)
     return state.pistons[began.wall().piston].pose(piston.center) - began.pose()(piston.center);
 }
 
-/// The level of a piston's surface goes with it. Returns what gravity holds more of both [J].
+/// The level of a piston's surface goes with it. Returns what gravity and the piston's load hold more of both [J].
 double separate_from_piston(const Vec3& gravity, const Contact& c, double wall_level, const Piston& piston,
     const PlacedWall& began, State& state, double share)
 {
@@ -56,7 +56,8 @@ double separate_from_piston(const Vec3& gravity, const Contact& c, double wall_l
     state.position[c.a] += inverse_mass * shift * c.normal;
     const Vec3 back = piston_inverse_mass * shift * along_guide * piston.guide;
     state.pistons[began.wall().piston].pose.shift -= back;
-    return gravity.dot(piston.mass * back - shift * c.normal);
+    return (piston.mass * gravity + piston.load_at(state.time) * piston.guide).dot(back) -
+           shift * gravity.dot(c.normal);
 }
 
 } // namespace
@@ -88,13 +89,17 @@ double project_positions(
     return sum;
 }
 
-void hold_at_walls(
+double hold_at_walls(
     const ContactNetwork& network, State& state, const Model& model, const std::vector<PlacedWall>& walls)
 {
+    double lifted = 0.0;
     const double deepest = deepest_in_wall * model.min_diameter;
     const auto hold = [&](const Contact& c, double wall_level) {
         const double overlap = wall_level - c.normal.dot(state.position[c.a]);
-        if (overlap > deepest) state.position[c.a] += (overlap - deepest) * c.normal;
+        if (overlap <= deepest) return;
+        const Vec3 shift = (overlap - deepest) * c.normal;
+        state.position[c.a] += shift;
+        lifted -= state.mass(c.a) * model.gravity.dot(shift);
     };
     for (const TileContacts& at_walls : network.contacts.walls)
         for (const std::size_t k : at_walls.indices()) hold(at_walls.contact(k), at_walls.geometry(k).wall_level);
@@ -105,6 +110,7 @@ void hold_at_walls(
         const Vec3 way = way_of(model.pistons[began.wall().piston], began, state);
         hold(c, pistons.geometry(k).wall_level + c.normal.dot(way));
     }
+    return lifted;
 }
 
 } // namespace talus

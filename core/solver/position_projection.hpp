@@ -20,7 +20,8 @@ double project_positions(const ContactNetwork& network, State& state, const Mode
 /// In sub-steps walls have the last word: what lies deeper in one than a quarter of the smallest
 /// diameter, pressed by heavier or faster spheres than the sweeps can stop, is brought back to that depth, so that no
 /// centre comes to the other side.
-void hold_at_walls(
+/// @return by what spheres were lifted [J]
+double hold_at_walls(
     const ContactNetwork& network, State& state, const Model& model, const std::vector<PlacedWall>& walls);
 
 } // namespace talus

@@ -35,24 +35,22 @@ template <class Use> void for_each_wall_contact(const ContactNetwork& network, U
     use_all(network.contacts.pistons);
 }
 
-/// Every contact of a press is known to be in it from now on, so that it is reported once.
-/// @param belongs whether a contact does
-template <class Belongs> void note_known(ContactNetwork& network, Belongs&& belongs)
+/// Changes what is known of contacts: change(contact, geometry, touch).
+template <class Change> void change_records(ContactNetwork& network, Change&& change)
 {
-    const auto note_all = [&](TileContacts& contacts, CarriedImpulses& carried) {
+    const auto change_all = [&](TileContacts& contacts, CarriedImpulses& carried) {
         for (const std::size_t k : contacts.indices()) {
-            TouchRecord touch = contacts.geometry(k).touch;
-            if (!belongs(contacts.contact(k), contacts.geometry(k)) || touch.is_newly_jammed()) continue;
-            touch.note_known();
+            TouchRecord touch = contacts.touch(k);
+            change(contacts.contact(k), contacts.geometry(k), touch);
             contacts.set_touch(k, touch);
             carried.contact[contacts.geometry(k).slot].touch = touch;
         }
     };
     for (std::size_t t = 0; t < network.contacts.spheres.size(); ++t) {
-        note_all(network.contacts.spheres[t], network.list.tiles.tiles[t].carried);
-        note_all(network.contacts.walls[t], network.carried.walls);
+        change_all(network.contacts.spheres[t], network.list.tiles.tiles[t].carried);
+        change_all(network.contacts.walls[t], network.carried.walls);
     }
-    note_all(network.contacts.pistons, network.carried.walls);
+    change_all(network.contacts.pistons, network.carried.walls);
 }
 
 /// What is known of a group.
@@ -90,18 +88,28 @@ std::vector<Incident> find_presses(ContactNetwork& network, const State& state, 
         if (is_deep(g)) add(c, g).spheres.insert(state.id[c.b]);
     });
     for_each_wall_contact(network, [&](const Contact& c, const ContactGeometry& g) {
-        if (is_deep(g)) add(c, g).walls.insert(c.b);
+        const auto group = presses.find(groups.first_of_set(static_cast<std::size_t>(c.a)));
+        const bool presses_on_group = group != presses.end() && !c.impulse.isZero(0.0);
+        if (is_deep(g) || presses_on_group) add(c, g).walls.insert(c.b);
     });
 
-    note_known(network, [&](const Contact& c, const ContactGeometry& g) {
-        return is_deep(g) && presses.at(groups.first_of_set(static_cast<std::size_t>(c.a))).is_new;
+    const auto is_driven = [&](const Press& press) {
+        return std::ranges::any_of(press.walls, [&](std::int32_t wall) { return !model.walls[wall].motion.empty(); });
+    };
+    // A press is reported once; what no wall drives yet is looked at again.
+    change_records(network, [&](const Contact& c, const ContactGeometry& g, TouchRecord& touch) {
+        if (!is_deep(g)) return;
+        const Press& press = presses.at(groups.first_of_set(static_cast<std::size_t>(c.a)));
+        if (!press.is_new) return;
+        if (!is_driven(press))
+            touch.note_hold();
+        else if (!touch.is_newly_jammed())
+            touch.note_known();
     });
 
     std::vector<Incident> incidents;
     for (const auto& [group, press] : presses) {
-        const bool is_driven =
-            std::ranges::any_of(press.walls, [&](std::int32_t wall) { return !model.walls[wall].motion.empty(); });
-        if (!press.is_new || press.is_known || !is_driven) continue;
+        if (!press.is_new || press.is_known || !is_driven(press)) continue;
         incidents.push_back({.kind = Incident::Kind::pressed,
             .id = state.id[press.sphere],
             .position = state.position[press.sphere],

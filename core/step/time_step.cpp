@@ -240,11 +240,11 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     // Positions with the new velocity: x ← x + h v.
     enter(Phase::positions);
     move_spheres(state, h);
-    move_flights(prepared.flights, state);
+    report.lifted_energy = move_flights(prepared.flights, state, model.gravity);
     const double load_work = move_pistons(state, model.pistons, h);
     if (model.solver.stabilisation == Stabilisation::projected)
-        report.lifted_energy = project_positions(network, state, model, prepared.walls, projected_share);
-    if (step.is_split()) hold_at_walls(network, state, model, prepared.walls);
+        report.lifted_energy += project_positions(network, state, model, prepared.walls, projected_share);
+    if (step.is_split()) report.lifted_energy += hold_at_walls(network, state, model, prepared.walls);
     wrap_positions(state, model.periodicity);
     state.time = step.is_split() ? state.time + h : static_cast<double>(++state.steps) * h;
 

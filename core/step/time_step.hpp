@@ -44,7 +44,7 @@ struct StepReport {
     ContactOutcome outcome;
     StateSurvey bodies;
     std::vector<WallLoad> wall_loads; ///< by wall; empty unless a sensor asks for them
-    double lifted_energy = 0.0;       ///< potential energy that the position pass of `projected` added [J]
+    double lifted_energy = 0.0;       ///< potential energy that moves of positions without velocity added [J]
     double contact_gain = 0.0; ///< energy that single contacts gained; every 16th step is looked at for all 16 [J]
 
     void then(StepReport next); ///< the next sub-step
