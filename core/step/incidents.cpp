@@ -88,14 +88,16 @@ std::vector<Incident> find_presses(ContactNetwork& network, const State& state, 
         if (is_deep(g)) add(c, g).spheres.insert(state.id[c.b]);
     });
     for_each_wall_contact(network, [&](const Contact& c, const ContactGeometry& g) {
+        if (is_deep(g)) add(c, g).walls.insert(c.b);
+    });
+    // A wall that is driven and presses on a group is part of it, even if it only touches.
+    const auto is_driven_wall = [&](std::int32_t wall) { return !model.walls[wall].motion.empty(); };
+    for_each_wall_contact(network, [&](const Contact& c, const ContactGeometry&) {
         const auto group = presses.find(groups.first_of_set(static_cast<std::size_t>(c.a)));
-        const bool presses_on_group = group != presses.end() && !c.impulse.isZero(0.0);
-        if (is_deep(g) || presses_on_group) add(c, g).walls.insert(c.b);
+        if (group != presses.end() && is_driven_wall(c.b) && !c.impulse.isZero(0.0)) group->second.walls.insert(c.b);
     });
 
-    const auto is_driven = [&](const Press& press) {
-        return std::ranges::any_of(press.walls, [&](std::int32_t wall) { return !model.walls[wall].motion.empty(); });
-    };
+    const auto is_driven = [&](const Press& press) { return std::ranges::any_of(press.walls, is_driven_wall); };
     // A press is reported once; what no wall drives yet is looked at again.
     change_records(network, [&](const Contact& c, const ContactGeometry& g, TouchRecord& touch) {
         if (!is_deep(g)) return;
