@@ -61,7 +61,7 @@ private:
 /// What a contact hands on from one step to the next; zeros where nothing is.
 struct alignas(32) CarriedContact {
     Vec3 impulse = Vec3::Zero(); ///< λ [N s]
-    float compression = 0.0F;    ///< κ: what of its overlap a load has pressed [m]
+    float compression = 0.0F;    ///< of its spring, what `handed_on` says: its energy, as a length [m]
     TouchRecord touch;
     std::uint8_t unused[3] = {}; ///< kernels read the last eight bytes as one number
 

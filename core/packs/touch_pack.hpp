@@ -31,7 +31,7 @@ struct alignas(64) TouchPack {
     double restitution[pack_size];      ///< e
     double stiffness[pack_size];        ///< k [N/m]
     double carried[3][pack_size];       ///< impulse of the step before [N s] …
-    double compression[pack_size];      ///< … its κ, and then that of this step [m]
+    double compression[pack_size];      ///< … what its spring has handed on, then κ of this step [m]
     std::int64_t struck[pack_size];     ///< … it was an impact: −1 for yes, 0 for no
     std::int64_t pushed[pack_size];     ///< … it had a gap: −1 for yes, 0 for no
 
