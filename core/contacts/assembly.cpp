@@ -40,7 +40,8 @@ template <class Use> void for_each_meeting_pair(std::span<WallPair> pairs, WallD
             from = to;
         }
         for (auto& pair : std::span<WallPair>{first, last})
-            if (std::ranges::none_of(meetings, [&](const WallMeeting& meeting) { return meeting.pair == &pair; }))
+            if (pair.carried > 0 &&
+                std::ranges::none_of(meetings, [&](const WallMeeting& meeting) { return meeting.pair == &pair; }))
                 detection.forget(pair);
         first = last;
     }

@@ -52,6 +52,7 @@ struct StepContacts {
     std::vector<AssemblyRoom> rooms;    ///< by thread
     std::vector<ReachBall> reach_balls; ///< by sphere
     std::vector<SphereImpacts> impacts; ///< by sphere
+    std::vector<Vec3> free_velocity;    ///< by sphere: v⁽¹⁾, as if nothing touched; of the warm start [m/s]
 
     /// That of the thread that asks.
     AssemblyRoom& room();

@@ -36,6 +36,7 @@ void TileContacts::append_pack()
         if (with_moving_walls_) add_one(wall_);
     } else if (!made_whole_) {
         packs_[p] = {};
+        records_[p] = {};
         if (with_rolling_) rolling_[p] = {};
         if (with_moving_walls_) wall_[p] = {};
     }
@@ -60,6 +61,7 @@ void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms
     record.gap[lane] = own.gap;
     record.wall_level[lane] = own.wall_level;
     record.compression[lane] = own.compression;
+    record.held[lane] = own.held;
     record.spring[lane] = own.spring;
     record.restitution[lane] = own.restitution;
     record.hands_on[lane] = own.hands_on;
@@ -81,28 +83,22 @@ void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms
     pack.target[lane] = contact.target;
     pack.arm_scale[lane] = terms.arm_scale;
     pack.friction[lane] = terms.friction;
-    pack.compliance[lane] = terms.compliance;
     pack.parting[lane] = terms.parting;
     pack.normal_mass[lane] = terms.normal_mass;
     pack.tangent_mass[lane] = terms.tangent_mass;
-    record_at(k).inverse_mass_sum[lane] = terms.inverse_mass_sum;
-}
-
-void TileContacts::place_pair(std::size_t k, std::int32_t sphere_a, std::int32_t sphere_b, std::uint32_t slot)
-{
-    packs_[k / pack_size].a[k % pack_size] = sphere_a;
-    packs_[k / pack_size].b[k % pack_size] = sphere_b;
-    records_[k / pack_size].slot[k % pack_size] = slot;
+    RecordPack& record = record_at(k);
+    record.inverse_mass_sum[lane] = terms.inverse_mass_sum;
+    record.compliance[lane] = terms.compliance;
 }
 
 void TileContacts::copy(
-    std::size_t k, const ContactPack& from, std::size_t lane, double inverse_mass_sum, const ContactGeometry& own)
+    std::size_t k, const ContactPack& from, const TouchPack& touch, std::size_t lane, const ContactGeometry& own)
 {
     const Contact contact{
         from.a[lane], from.b[lane], get(from.normal, lane), from.target[lane], get(from.impulse, lane)};
     set(k, contact,
-        {from.arm_scale[lane], from.friction[lane], from.compliance[lane], from.parting[lane], from.normal_mass[lane],
-            from.tangent_mass[lane], inverse_mass_sum},
+        {from.arm_scale[lane], from.friction[lane], touch.compliance[lane], from.parting[lane], from.normal_mass[lane],
+            from.tangent_mass[lane], touch.inverse_mass_sum[lane]},
         own);
 }
 
@@ -112,7 +108,7 @@ void TileContacts::set_law(std::size_t k, ContactKind kind, double target, float
     RecordPack& record = record_at(k);
     const std::size_t lane = k % pack_size;
     pack.target[lane] = target;
-    pack.compliance[lane] = 0.0;
+    record.compliance[lane] = 0.0;
     pack.parting[lane] = infinity;
     pack.normal_mass[lane] = 1.0 / record.inverse_mass_sum[lane];
     record.kind[lane] = kind;
@@ -152,8 +148,9 @@ ContactTerms TileContacts::terms(std::size_t k) const
 {
     const ContactPack& pack = packs_[k / pack_size];
     const std::size_t lane = k % pack_size;
-    return {pack.arm_scale[lane], pack.friction[lane], pack.compliance[lane], pack.parting[lane],
-        pack.normal_mass[lane], pack.tangent_mass[lane], records_[k / pack_size].inverse_mass_sum[lane]};
+    const RecordPack& record = records_[k / pack_size];
+    return {pack.arm_scale[lane], pack.friction[lane], record.compliance[lane], pack.parting[lane],
+        pack.normal_mass[lane], pack.tangent_mass[lane], record.inverse_mass_sum[lane]};
 }
 
 ContactGeometry TileContacts::geometry(std::size_t k) const
@@ -161,8 +158,8 @@ ContactGeometry TileContacts::geometry(std::size_t k) const
     const RecordPack& record = records_[k / pack_size];
     const std::size_t lane = k % pack_size;
     return {record.gap[lane], record.wall_level[lane], record.slot[lane], record.kind[lane], touch(k),
-        record.compression[lane], record.spring[lane], record.restitution[lane], record.hands_on[lane],
-        record.push[lane]};
+        record.compression[lane], record.held[lane], record.spring[lane], record.restitution[lane],
+        record.hands_on[lane], record.push[lane]};
 }
 
 RollingRow TileContacts::rolling(std::size_t k) const

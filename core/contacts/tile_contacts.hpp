@@ -3,6 +3,7 @@
 
 #include "core/contacts/contact.hpp"
 #include "core/packs/contact_pack.hpp"
+#include "core/packs/touch_pack.hpp"
 
 #include <bit>
 #include <iterator>
@@ -81,12 +82,17 @@ public:
     /// A contact of this step.
     void set(std::size_t k, const Contact& contact, const ContactTerms& terms, const ContactGeometry& own);
     /// Two spheres get lane k. The rest of it is not written: the whole pack is to be made.
-    void place_pair(std::size_t k, std::int32_t sphere_a, std::int32_t sphere_b, std::uint32_t slot);
+    void place_pair(std::size_t k, std::int32_t sphere_a, std::int32_t sphere_b, std::uint32_t slot)
+    {
+        packs_[k / pack_size].a[k % pack_size] = sphere_a;
+        packs_[k / pack_size].b[k % pack_size] = sphere_b;
+        records_[k / pack_size].slot[k % pack_size] = slot;
+    }
     /// The same; what is known of it besides stays.
     void set(std::size_t k, const Contact& contact, const ContactTerms& terms);
-    /// Contact k becomes what stands in a lane of another pack.
+    /// Contact k becomes what stands in a lane of another pack, and of what was found of it.
     void copy(
-        std::size_t k, const ContactPack& from, std::size_t lane, double inverse_mass_sum, const ContactGeometry& own);
+        std::size_t k, const ContactPack& from, const TouchPack& touch, std::size_t lane, const ContactGeometry& own);
     /// Contact k gets another normal law, and hands on no more than this normal impulse [N s].
     void set_law(std::size_t k, ContactKind kind, double target, float compression, double hands_on);
     void set_rolling(std::size_t k, const RollingRow& row);

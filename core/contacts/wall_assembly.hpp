@@ -108,13 +108,14 @@ private:
         const std::size_t k = one_by_one_ ? contacts_.append() : filler_.place(sphere, -1);
         const auto kind = static_cast<ContactKind>(touch_.kind[lane]);
         const bool is_impact = kind == ContactKind::impact;
-        contacts_.copy(k, contact_, static_cast<std::size_t>(lane), touch_.inverse_mass_sum[lane],
+        contacts_.copy(k, contact_, touch_, static_cast<std::size_t>(lane),
             {.gap = gap,
                 .wall_level = wall_level_[lane],
                 .slot = slot,
                 .kind = kind,
                 .touch = carried_.contact[slot].touch,
                 .compression = static_cast<float>(touch_.compression[lane]),
+                .held = static_cast<float>(touch_.held[lane]),
                 .spring = static_cast<float>(touch_.spring[lane]),
                 .restitution = static_cast<float>(touch_.restitution[lane]),
                 .hands_on = is_impact ? 0.0F : INFINITY,

@@ -67,6 +67,12 @@ void WallDetection::add_touching(WallPair& pair, double reach)
 /// Gaps that close within the horizon, or are small. @param touching so many meetings are none
 void WallDetection::add_gaps(WallPair& pair, std::span<const WallPoint> now, std::size_t touching)
 {
+    const auto touched = [&](const WallPoint& at) {
+        return std::any_of(meetings_.begin(), meetings_.begin() + static_cast<std::ptrdiff_t>(touching),
+            [&](const WallMeeting& meeting) { return meeting.pair == &pair && meeting.at.patch == at.patch; });
+    };
+    if (std::ranges::all_of(now, touched)) return;
+
     const PlacedWall& wall = walls_[pair.wall];
     const Motion& m = state_.motion[pair.sphere];
     Vec3 velocity = free_velocity(wall, m, static_cast<std::size_t>(now.front().patch));
@@ -77,10 +83,6 @@ void WallDetection::add_gaps(WallPair& pair, std::span<const WallPoint> now, std
     }
     const double speed = velocity.norm(), reach = m.radius + std::max(step_.reach, step_.horizon * speed);
     const auto is_near = [&](const WallPoint& at) { return at.distance <= reach + step_.law.h * speed; };
-    const auto touched = [&](const WallPoint& at) {
-        return std::any_of(meetings_.begin(), meetings_.begin() + static_cast<std::ptrdiff_t>(touching),
-            [&](const WallMeeting& meeting) { return meeting.pair == &pair && meeting.at.patch == at.patch; });
-    };
     if (std::ranges::none_of(now, [&](const WallPoint& at) { return is_near(at) && !touched(at); })) return;
 
     points_.clear();

@@ -14,7 +14,7 @@ inline constexpr int pack_size = 8;
 enum class ContactKind : std::uint8_t { resting, open, impact, yielding, bearing, deferred };
 
 /// Eight contacts, no two of which share a sphere, so that their order does not matter: all that a sweep streams, lane
-/// beside lane, 112 B a contact. They are filled from lane 0 on; a lane that is empty has a = b = −1, and zeros. A lane
+/// beside lane, 104 B a contact. They are filled from lane 0 on; a lane that is empty has a = b = −1, and zeros. A lane
 /// that holds two spheres which do not touch has zeros for its numbers from `impulse` on, but for μ: a sweep changes
 /// nothing by it.
 struct alignas(64) ContactPack {
@@ -25,19 +25,20 @@ struct alignas(64) ContactPack {
     double target[pack_size];       ///< q_n [m/s]
     double arm_scale[pack_size];    ///< s
     double friction[pack_size];     ///< μ
-    double compliance[pack_size];   ///< Σ_n [1/kg]
     double parting[pack_size];      ///< u_n that it asks for at most [m/s]
     double normal_mass[pack_size];  ///< 1 / (W + Σ_n) [kg]
     double tangent_mass[pack_size]; ///< 1 / (W (1 + 5/2 s²)) [kg]
 };
-static_assert(sizeof(ContactPack) == 896);
+static_assert(sizeof(ContactPack) == 832);
 
 /// What a step knows of them besides their solve, and what they hand on to the next one.
 struct alignas(64) RecordPack {
     double gap[pack_size];              ///< g at the beginning of the step [m]; < 0 is overlap
     double wall_level[pack_size];       ///< n·x at which the gap to the wall is zero after the step [m]; at walls
     double inverse_mass_sum[pack_size]; ///< W [1/kg]
+    double compliance[pack_size];       ///< Σ_n [1/kg]
     float compression[pack_size];       ///< κ: what of the overlap a load has pressed [m]; −∞: it will keep none
+    float held[pack_size];              ///< what its spring holds then, as the square of a length [m²]
     float spring[pack_size];            ///< Σ_n of its spring, also where it is rigid in this step [1/kg]
     float push[pack_size];              ///< what it may put in by pushing out, by its impulse [m/s]
     float restitution[pack_size];       ///< e

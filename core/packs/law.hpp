@@ -138,15 +138,42 @@ template <class N>
     return smaller<N>(N{} + 1.0, compliance / (parts_squared * sigma_per_sweep / step.min_sweeps * inverse_mass_sum));
 }
 
-/// What a spring holds [J]: ½ k (κ² + h κ u_n) + u_n²/(4 Σ_n) with k = 4 Υ/(Σ_n h²). With this a loaded spring beside
-/// any other contacts adds −(u_n⁺ + u_n)²/(4 Σ_n) to the energy of a step (METHOD, energy).
+/// What of a spring's energy is in its motion, as the square of a length [m²].
+template <class N>
+[[gnu::always_inline]] inline N moving_part(
+    const N& u_n, const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
+{
+    constexpr double per_share = 1.0 / (8.0 * upsilon);
+    const N way = step.h * u_n;
+    if (step.parts == 1.0) return (per_share - 0.25) * (way * way);
+    return way * way * (per_share / feedback_share<N>(compliance, inverse_mass_sum, step) - 0.25);
+}
+
+/// What a spring holds, as the square of a length [m²]: κ² + h κ u_n + h² u_n²/(8 Υ share).
+template <class N>
+[[gnu::always_inline]] inline N spring_square(
+    const N& kappa, const N& u_n, const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
+{
+    const N middle = kappa + 0.5 * step.h * u_n;
+    return middle * middle + moving_part<N>(u_n, compliance, inverse_mass_sum, step);
+}
+
+/// The energy of a spring [J], by the square of that length: ½ k (κ² + h κ u_n) + u_n²/(4 Σ_n) with
+/// k = 4 Υ share/(Σ_n h²). With this a loaded spring beside any other contacts adds −(u_n⁺ + u_n)²/(4 Σ_n) to the
+/// energy of a step (METHOD, energy).
+template <class N>
+[[gnu::always_inline]] inline N energy_of_square(
+    const N& square, const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
+{
+    const double per_square = 2.0 * upsilon / (step.h * step.h);
+    return per_square * feedback_share<N>(compliance, inverse_mass_sum, step) * square / compliance;
+}
 template <class N>
 [[gnu::always_inline]] inline N spring_energy(
     const N& kappa, const N& u_n, const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
 {
-    const N share = feedback_share<N>(compliance, inverse_mass_sum, step);
-    const double per_square = 2.0 * upsilon / (step.h * step.h);
-    return (per_square * share * kappa * (kappa + step.h * u_n) + 0.25 * u_n * u_n) / compliance;
+    const N square = spring_square<N>(kappa, u_n, compliance, inverse_mass_sum, step);
+    return energy_of_square<N>(square, compliance, inverse_mass_sum, step);
 }
 
 /// When two spheres that move so touch: infinite if never, negative if they overlap and approach [s].
@@ -206,8 +233,9 @@ template <class N>
     const Answer<N> settles =
         touches<N>(event.gap, step) & (-event.restitution * event.u_n < N{} + step.threshold_speed);
     const Answer<N> unstopped = (-event.gap > deferred_overlap * event.diameter) | (event.struck & settles);
-    return (event.u_n < N{} - step.threshold_speed) & closes & (event.load < load_share * impact_size<N>(event)) &
-           (!unstopped);
+    const N change = (1.0 + event.restitution) * -event.u_n; // of u_n, by an impact
+    return (event.u_n < N{} - step.threshold_speed) & closes &
+           (event.load * event.inverse_mass_sum < load_share * change) & (!unstopped);
 }
 
 /// The target of a row that has no spring. A rigid row adds ½ λ_n (u_n⁺ + u_n) to the energy of a step, whatever other
@@ -267,9 +295,9 @@ template <class N>
     return kept > 0.0 ? kept : N{} - __builtin_inf();
 }
 
-/// The law of a contact of `matched`: a spring where a load has pressed it. What yields holds no more than a spring
-/// that is pressed until it yields; it bears as one that all of its overlap has pressed, and parts no faster than
-/// impacts begin.
+/// The law of a contact of `matched`: a spring where a load has pressed it. What yields bears as one that all of its
+/// overlap has pressed, and forgets: the deeper it is, the less of its spring is left, and it parts with the speed of
+/// what is loaded times its strain, no faster than impacts begin.
 template <class N>
 [[gnu::always_inline]] inline NormalLaw<N> spring_law(const ContactEvent<N>& event, const LawOfStep& step)
 {
@@ -281,14 +309,20 @@ template <class N>
     const N most = elastic_overlap<N>(event, step);
     const Answer<N> open = event.gap > least, touching = event.gap <= least, yields = -event.gap > most;
     const N before = event.compression > least ? event.compression : none;
-    const N presses = smaller<N>(-event.gap, most), elastic = smaller<N>(presses, before);
+    N strain = none + 1.0, presses = -event.gap;
+    if (any_of(yields)) {
+        strain = -event.gap / most;
+        presses = yields ? most / strain : presses;
+    }
+    const N elastic = smaller<N>(presses, before);
     const N grown = smaller<N>(presses - elastic, none + step.h * step.push_out_speed), kappa = elastic + grown;
     const Answer<N> is_spring = touching & (before > 0.0), closes = touching & (event.u_n_before < least / step.h);
     const N kept = yields ? borne_compression<N>(kappa, event.u_n_before, step) : kappa;
     const Answer<N> keeps = is_spring | closes;
 
     const N feedback = per_way * kappa, strength = per_way * -event.gap;
-    const N pushing = smaller<N>(none + smaller(step.push_out_speed, step.elastic_speed), strength);
+    const N most_pushing = none + smaller(step.push_out_speed, step.elastic_speed);
+    const N pushing = smaller<N>(smaller<N>(most_pushing, slow_parting(step) * strain), strength);
     const N asks = open ? -event.gap * (1.0 / step.h) : (yields ? pushing : feedback);
     const N alone = passive_target<N>(asks, event.u_n_before);
     const N parting = is_spring ? spring_parting<N>(event, kappa, step) : infinite;
@@ -322,32 +356,45 @@ inline double bearing_target(double gap, double u_n, const LawOfStep& step)
     return smaller(-larger(0.0, gap) / step.h, -u_n);
 }
 
-/// What of a spring's energy is in its motion, as the square of a length: with c = 2 Υ share/(h² Σ_n) it holds
-/// c ((κ + ½ h u_n)² + this).
+/// κ after a step at this speed, while it is not negative. What was compressed faster than impacts begin, e has a part
+/// in: it gives way 1/e² as fast (Walton & Braun 1986); pushing out is no part of that speed.
+/// @param gap at the beginning of the step [m]
 template <class N>
-[[gnu::always_inline]] inline N moving_part(
-    const N& u_n, const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
+[[gnu::always_inline]] inline N compression_after(
+    const N& kappa, const N& gap, const N& u_n, const N& restitution, const LawOfStep& step)
 {
-    const N way = step.h * u_n, share = feedback_share<N>(compliance, inverse_mass_sum, step);
-    return way * way * (1.0 / (8.0 * upsilon * share) - 0.25);
+    N gives_way = {};
+    if (any_of(u_n > step.elastic_speed)) {
+        const N pushing = smaller<N>(N{} + step.push_out_speed, (-gap - kappa) / step.h);
+        const N fast = larger<N>(N{}, u_n - step.elastic_speed - larger<N>(N{}, pushing));
+        const N e = larger<N>(N{} + least_restitution, restitution);
+        gives_way = fast * larger<N>(N{}, 1.0 / (e * e) - 1.0);
+    }
+    return kappa - step.h * (u_n + gives_way);
 }
 
-/// What a contact hands on of its spring is the energy, as a length: when a curved wall turns the normal, u_n changes,
-/// and the next step makes that κ of it which holds as much. 0: it has no spring, or none could hold so little.
-template <class N, class Root>
-[[gnu::always_inline]] inline N handed_on(const N& kappa_after, const N& u_n, const N& compliance,
-    const N& inverse_mass_sum, const LawOfStep& step, Root root_of)
+/// What a contact hands on of its spring is what that holds, as the square of a length: when a curved wall turns the
+/// normal, u_n changes, and the next step makes that κ of it which holds as much. A spring that had no load in the step
+/// holds what it did, and has lost no more of its κ than it has opened. 0: there is no spring, or none could hold so
+/// little.
+/// @param held at the beginning of the step [m²]
+template <class N>
+[[gnu::always_inline]] inline N handed_on(const N& kappa_after, const N& held, const N& u_n, const N& impulse,
+    const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
 {
-    const N middle = kappa_after + 0.5 * step.h * u_n;
-    const N length = root_of(middle * middle + moving_part<N>(u_n, compliance, inverse_mass_sum, step));
-    return kappa_after > touching_gap * step.min_diameter ? length : N{};
+    const N square = spring_square<N>(kappa_after, u_n, compliance, inverse_mass_sum, step);
+    const N loaded = kappa_after > touching_gap * step.min_diameter ? square : N{};
+    return impulse > 0.0 ? loaded : held;
 }
+/// @param handed the root of what was handed on [m]; @param loaded in the step before
+/// @param root_of the root of a number
 template <class N, class Root>
-[[gnu::always_inline]] inline N taken_over(
-    const N& handed, const N& u_n, const N& compliance, const N& inverse_mass_sum, const LawOfStep& step, Root root_of)
+[[gnu::always_inline]] inline N taken_over(const N& handed, const Answer<N>& loaded, const N& gap, const N& u_n,
+    const N& restitution, const N& compliance, const N& inverse_mass_sum, const LawOfStep& step, Root root_of)
 {
     const N left = handed * handed - moving_part<N>(u_n, compliance, inverse_mass_sum, step);
-    const N kappa = root_of(larger<N>(N{}, left)) - 0.5 * step.h * u_n;
+    const N most = root_of(larger<N>(N{}, left)) - 0.5 * step.h * u_n;
+    const N kappa = loaded ? most : smaller<N>(most, compression_after<N>(handed, gap, u_n, restitution, step));
     return ((handed > 0.0) & (left > 0.0)) ? kappa : N{};
 }
 
@@ -357,24 +404,6 @@ template <class N>
     const N& target, const N& compliance, const N& parting, const N& impulse)
 {
     return smaller<N>(target - compliance * impulse, parting);
-}
-
-/// κ of a spring after a step. What was compressed faster than impacts begin, e has a part in: it gives way 1/e² as
-/// fast (Walton & Braun 1986); pushing out is no part of that speed.
-/// @param gap at the beginning of the step [m]
-template <class N>
-[[gnu::always_inline]] inline N compression_after(
-    const N& kappa, const N& gap, const N& u_n, const N& impulse, const N& restitution, const LawOfStep& step)
-{
-    N gives_way = {};
-    if (any_of(u_n > step.elastic_speed)) {
-        const N pushing = smaller<N>(N{} + step.push_out_speed, (-gap - kappa) / step.h);
-        const N fast = larger<N>(N{}, u_n - step.elastic_speed - larger<N>(N{}, pushing));
-        const N e = larger<N>(N{} + least_restitution, restitution);
-        gives_way = fast * larger<N>(N{}, 1.0 / (e * e) - 1.0);
-    }
-    const N after = kappa - step.h * (u_n + gives_way);
-    return ((impulse > 0.0) & (after > 0.0)) ? after : N{};
 }
 
 } // namespace talus

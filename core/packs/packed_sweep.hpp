@@ -155,9 +155,10 @@ template <int width, bool wall, class R, bool full> struct Contacts {
     {
         const Vector<width> u = velocity();
         const Numbers<width> u_n = u.dot(normal), old_normal = impulse.dot(normal);
-        const Numbers<width> excess =
-            (u_n + load<width>(pack.compliance + first) * old_normal) - load<width>(pack.target + first);
-        const Numbers<width> of_spring = excess * load<width>(pack.normal_mass + first);
+        const Numbers<width> mass = load<width>(pack.normal_mass + first);
+        // (u_n + Σ λ_n − q)/(W + Σ), and Σ/(W + Σ) = 1 − W/(W + Σ).
+        const Numbers<width> of_spring =
+            (u_n - load<width>(pack.target + first)) * mass + old_normal * (1.0 - inverse_mass_sum() * mass);
         Numbers<width> tangent_mass = load<width>(pack.tangent_mass + first), rigid_mass = tangent_mass;
         if constexpr (spins) rigid_mass = tangent_mass * (1.0 + inverse_inertia * (arm_scale * arm_scale)); // 1/W
         const Numbers<width> of_parting = (u_n - load<width>(pack.parting + first)) * rigid_mass;

@@ -154,13 +154,14 @@ template <int width>
     };
     const Vector<width> normal = Vector<width>::load(contact.normal, first);
     const Vector<width> carried = Vector<width>::load(touch.carried, first);
-    const N w = number(touch.inverse_mass_sum), arm_scale = number(contact.arm_scale);
+    const N along = carried.dot(normal), w = number(touch.inverse_mass_sum), arm_scale = number(contact.arm_scale);
     const N spring = spring_compliance<N>(number(touch.stiffness), w, step.law);
     const F pushed = load_flags<width>(touch.pushed + first);
     const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.reduced_radius),
         number(touch.u_n), number(touch.u_n_before), number(touch.closes), w, number(touch.restitution),
-        number(touch.stiffness), pushed ? none : larger<N>(none, carried.dot(normal)) * step.law.parts,
-        taken_over<N>(number(touch.compression), number(touch.u_n_before), spring, w, step.law, root<width>),
+        number(touch.stiffness), pushed ? none : larger<N>(none, along) * step.law.parts,
+        taken_over<N>(number(touch.compression), along > 0.0, number(touch.gap), number(touch.u_n_before),
+            number(touch.restitution), spring, w, step.law, root<width>),
         load_flags<width>(touch.struck + first)};
     const F strikes = is_impact<N>(event, step.law), impact = strikes & within_reach;
     const NormalLaw<N> law = normal_law<N>(event, impact, step.law);
@@ -174,10 +175,12 @@ template <int width>
     put(contact.impulse[1], warm.y);
     put(contact.impulse[2], warm.z);
     put(contact.target, law.target);
-    put(contact.compliance, law.compliance);
+    put(touch.compliance, law.compliance);
     put(contact.parting, law.parting);
-    put(contact.normal_mass, 1.0 / (w + law.compliance));
-    put(contact.tangent_mass, 1.0 / (w * (1.0 + step.inverse_inertia * arm_scale * arm_scale)));
+    const N softer = w + law.compliance, turning = w * (1.0 + step.inverse_inertia * arm_scale * arm_scale);
+    const N of_both = 1.0 / (softer * turning); // divisions are dear
+    put(contact.normal_mass, turning * of_both);
+    put(contact.tangent_mass, softer * of_both);
 
     const N least = none + touching_gap * step.law.min_diameter;
     const F keeps = within_reach & (law.compression > none), stored = keeps & (event.compression > least);
@@ -185,14 +188,17 @@ template <int width>
     const N u_stored = stored ? event.u_n_before : none;
     const N borne = law.yields ? 0.5 * step.law.h * smaller<N>(none, event.u_n_before) : none;
     const N kappa = law.compression - borne, pressed = stored ? kappa - law.grown : none;
-    const N energy = spring_energy<N>(kappa, u_stored, spring, w, step.law);
-    const N energy_before = spring_energy<N>(pressed, u_stored, spring, w, step.law);
-    put(touch.stored_energy, keeps ? energy : none);
-    put(touch.push_out_energy, keeps ? energy - energy_before : none);
+    const N square = spring_square<N>(kappa, u_stored, spring, w, step.law);
+    const N square_before = spring_square<N>(pressed, u_stored, spring, w, step.law);
+    const N energy_of_one = energy_of_square<N>(none + 1.0, spring, w, step.law);
+    put(touch.stored_energy, keeps ? energy_of_one * square : none);
+    put(touch.push_out_energy, keeps ? energy_of_one * (square - square_before) : none);
     put(touch.spring, spring);
+    put(touch.held, keeps ? square_before : none);
     put(touch.push, law.push);
-    put(touch.strain, -event.gap / elastic_overlap<N>(event, step.law));
-    put(touch.impact_size, impact ? impact_size<N>(event) : none);
+    const N most = elastic_overlap<N>(event, step.law);
+    put(touch.strain, -event.gap > most ? -event.gap / most : none);
+    put(touch.impact_size, any<width>(impact) ? (impact ? impact_size<N>(event) : none) : none);
     store<width>(touch.compression + first, law.compression);
     const F open = event.gap > least;
     const F yields = law.yields;
@@ -254,7 +260,9 @@ template <int width>
 
     store<width>(record.gap + first, gap);
     store<width>(record.inverse_mass_sum + first, load<width>(touch.inverse_mass_sum + first));
+    store<width>(record.compliance + first, load<width>(touch.compliance + first));
     store_floats<width>(record.compression + first, load<width>(touch.compression + first));
+    store_floats<width>(record.held + first, load<width>(touch.held + first));
     store_floats<width>(record.spring + first, load<width>(touch.spring + first));
     store_floats<width>(record.push + first, load<width>(touch.push + first));
     store_floats<width>(record.restitution + first, load<width>(touch.restitution + first));
@@ -297,28 +305,33 @@ unsigned hand_on(
         const Vector<width> impulse = Vector<width>::load(contact.impulse, first);
         const N along = impulse.dot(normal), none = {};
         const Vector<width> tangent = impulse - normal * along;
-        const N excess = root<width>(tangent.dot(tangent)) - load<width>(contact.friction + first) * along;
+        const N tangent_squared = tangent.dot(tangent), most_tangent = load<width>(contact.friction + first) * along;
+        N excess = none;
+        if (const F outside = tangent_squared > most_tangent * most_tangent; any<width>(outside))
+            excess = outside ? root<width>(tangent_squared) - most_tangent : none;
 
         const N spring = load_floats<width>(record.spring + first), w = load<width>(record.inverse_mass_sum + first);
-        const N u_n = solved_velocity<N>(load<width>(contact.target + first), load<width>(contact.compliance + first),
+        const N u_n = solved_velocity<N>(load<width>(contact.target + first), load<width>(record.compliance + first),
             load<width>(contact.parting + first), along);
         const N gap = load<width>(record.gap + first);
-        const N kappa = compression_after<N>(load_floats<width>(record.compression + first), gap, u_n, along,
+        const N kappa = compression_after<N>(load_floats<width>(record.compression + first), gap, u_n,
             load_floats<width>(record.restitution + first), law);
-        const N energy = spring_energy<N>(kappa, u_n, spring, w, law);
+        const N held = load_floats<width>(record.held + first);
+        const N square = handed_on<N>(kappa, held, u_n, along, spring, w, law);
         const N pushed = load_floats<width>(record.push + first) * along;
         const F kind = widened<width>(reinterpret_cast<const std::uint8_t*>(record.kind) + first);
-        const F keeps_spring = kappa > touching_gap * law.min_diameter;
         const auto put = [&](double* sums, const N& numbers) __attribute__((always_inline))
         {
             store<width>(sums + first, numbers);
         };
         put(handed.cone_violation, larger<N>(load<width>(handed.cone_violation + first), excess));
-        put(handed.stored_energy, load<width>(handed.stored_energy + first) + (keeps_spring ? energy : none));
+        put(handed.stored_energy, load<width>(handed.stored_energy + first) +
+                                      (square > 0.0 ? energy_of_square<N>(square, spring, w, law) : none));
         put(handed.push_out_energy, load<width>(handed.push_out_energy + first) + pushed);
 
         const N most = load_floats<width>(record.hands_on + first);
-        const N share = along > most ? most / along : none + 1.0;
+        N share = none + 1.0;
+        if (any<width>(along > most)) share = along > most ? most / along : share;
         const F is_deep = -gap > none + jammed_overlap * law.min_diameter;
         const F now =
             (along > 0.0) & (kind == std::int64_t{2} ? F{} + 2 : (kind == std::int64_t{1} ? F{} + 3 : F{} + 1));
@@ -326,8 +339,7 @@ unsigned hand_on(
         narrow<width>(record.touch + first, touch);
         deep_lanes |= bits<width>(is_deep) << first;
 
-        const CarriedRecords<width> carries{
-            impulse * share, handed_on<N>(kappa, u_n, spring, w, law, root<width>), touch};
+        const CarriedRecords<width> carries{impulse * share, root<width>(square), touch};
         double* records[width];
         for (int lane = 0; lane < width; ++lane)
             records[lane] =

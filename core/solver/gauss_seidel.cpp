@@ -16,7 +16,10 @@ namespace talus
 namespace
 {
 
-constexpr double unrelaxed = 1.0; ///< ω of an ordinary sweep, and of all that measures
+constexpr double unrelaxed = 1.0;        ///< ω of an ordinary sweep, and of all that measures
+constexpr double least_share = 0.1;      ///< of the tolerance, to which it may be tightened …
+constexpr double least_tolerance = 1e-3; ///< … but no further than to this
+constexpr double motion_share = 7.0;     ///< tolerances that errors may be of what contacts change of the motion
 
 std::size_t row_variant(const ModelledPhysics& physics)
 {
@@ -54,6 +57,15 @@ struct TilePasses {
 double residual(const SweepSums& sums, double warm_size)
 {
     return sums.change == 0.0 ? 0.0 : std::sqrt(sums.change / std::max(sums.size, warm_size));
+}
+
+/// Σ m |v − v⁽¹⁾|², twice the kinetic energy of what contacts have changed of the spheres' motion [J].
+double changed_motion(const std::vector<Vec3>& free_velocity, const std::vector<Motion>& motion)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < motion.size(); ++i)
+        sum += (motion[i].velocity - free_velocity[i]).squaredNorm() / motion[i].inverse_mass;
+    return sum;
 }
 
 /// The sums of each tile, and those of the pistons.
@@ -113,11 +125,18 @@ void SolveReport::then(const SolveReport& next)
 double apply_warm_start(
     ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion, const ModelledPhysics& physics)
 {
+    network.contacts.free_velocity.resize(motion.size());
+    for (std::size_t i = 0; i < motion.size(); ++i) network.contacts.free_velocity[i] = motion[i].velocity;
     const TilePasses passes(network, motion, physics);
     PartialSums sums(network.list.tiles.count());
     const auto work = [&](std::size_t tile) { sums.of_tile[tile] = passes.warm_start(tile); };
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) { crew.color_by_color(work); });
     return sums.total(unrelaxed).size + pistons.warm_start(motion.data());
+}
+
+double tightened(double tolerance, double share)
+{
+    return std::min(tolerance, std::max(std::clamp(share, least_share, 1.0) * tolerance, least_tolerance));
 }
 
 double relaxation_of(int sweep, const ModelledPhysics& physics, const SolverSettings& solver)
@@ -152,12 +171,13 @@ SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::v
     // Two sets of partial sums in turn: a slow thread may still read one sweep's while a fast one writes the next.
     std::array<PartialSums, 2> swept{PartialSums(tiles), PartialSums(tiles)};
     PartialSums measured(tiles);
+    double changed = 0.0;
     SolveReport report;
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
         // Every thread goes through the same loop with the same numbers.
         int sweeps = sweeps_made;
-        double change = infinity, error = infinity;
-        while (error > solver.tolerance && sweeps < solver.max_sweeps) {
+        double change = infinity, error = infinity, asked = solver.tolerance;
+        while (error > asked && sweeps < solver.max_sweeps) {
             auto& sums = swept[static_cast<std::size_t>(sweeps % 2)];
             const double relaxation = relaxation_of(sweeps, physics, solver);
             sweep(crew, passes, pistons, motion, relaxation, sums);
@@ -166,14 +186,21 @@ SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::v
             // the last.
             const double last_change = std::exchange(change, residual(sums.total(relaxation), warm_size));
             const double expected = change < last_change ? change * change / last_change : change;
-            const bool ready = sweeps >= solver.min_sweeps && (expected <= solver.tolerance || change == 0.0);
+            const bool ready = sweeps >= solver.min_sweeps && (expected <= asked || change == 0.0);
             if (!ready && sweeps < solver.max_sweeps) continue;
             crew.all_at_once([&](std::size_t tile) { measured.of_tile[tile] = passes.measure(tile); });
             if (!pistons.empty()) crew.by_one([&] { measured.of_pistons = pistons.measure(motion.data()); });
-            error = residual(measured.total(unrelaxed), warm_size);
+            const SweepSums sums_of_error = measured.total(unrelaxed);
+            error = residual(sums_of_error, warm_size);
+            if (error > asked || solver.stabilisation == Stabilisation::projected) continue;
+            // Where loads are large beside what they change of the motion, errors that are small beside them are not,
+            // and springs go on with them. (Rigid rows that contradict each other only grow with further sweeps.)
+            crew.by_one([&] { changed = changed_motion(network.contacts.free_velocity, motion); });
+            const double size = std::max(sums_of_error.size, warm_size);
+            asked = tightened(solver.tolerance, size > 0.0 ? motion_share * std::sqrt(changed / size) : 1.0);
         }
 #pragma omp single nowait
-        report = {sweeps, error, error <= solver.tolerance};
+        report = {sweeps, error, error <= asked};
     });
     return report;
 }

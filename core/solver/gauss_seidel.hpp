@@ -13,15 +13,18 @@ namespace talus
 struct SolveReport {
     int sweeps = 0;
     double residual = 0.0; ///< ε
-    bool converged = true; ///< ε ≤ tolerance
+    bool converged = true; ///< ε as small as it should be
 
     void then(const SolveReport& next); ///< the next sub-step: all sweeps, the worst residual
 };
 
 /// Warm start: v ← v + M⁻¹ Gᵀ λ⁰ with the impulses in the contacts (METHOD (5); the note forgets it).
-/// Returns Σ W|λ⁰|².
+/// Returns Σ W|λ⁰|². Notes v⁽¹⁾, with which the spheres come.
 double apply_warm_start(
     ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion, const ModelledPhysics& physics);
+
+/// This share of a tolerance, but no less than a tenth of it, and not below 1e-3.
+double tightened(double tolerance, double share);
 
 /// ω of a sweep of a step, METHOD (6): of its contacts, but for those with pistons.
 /// @param sweep from 0 on
@@ -37,8 +40,10 @@ double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, 
 ///
 ///   ε = (Σ W|δ|² / max(Σ W|λ|², Σ W|λ⁰|²))^½ ≤ tolerance,  δ the exact correction of one contact alone,  METHOD (9)
 ///
-/// but at least min_sweeps and at most max_sweeps. The changes made by the sweeps tell when ε may be small enough; then
-/// a pass that changes nothing measures ε itself, and the sweeps go on if it is not.
+/// but at least min_sweeps and at most max_sweeps. With `matched` ε shall be so small, too, that errors of velocities
+/// are no more than seven tolerances of what contacts have changed of them, (Σ W|δ|² / Σ m|v − v⁽¹⁾|²)^½; but for that
+/// no less than a tenth of the tolerance, nor than 1e-3. The changes made by the sweeps tell when ε may be small
+/// enough; then a pass that changes nothing measures ε itself, and the sweeps go on if it is not.
 /// @param warm_size Σ W|λ⁰|² of the warm start
 /// @param sweeps_made sweeps of this step that were made before, and count
 SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,

@@ -23,8 +23,6 @@ constexpr std::int64_t audit_interval = 16;         ///< steps; gains of contact
 constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
 constexpr double usual_ratio = 10.0;                ///< of what strikes and bears a sphere, to its own mass
 constexpr double most_ratio = 300.0;                ///< … up to which an impact is solved further
-constexpr double least_share = 0.1;                 ///< of the tolerance, where contacts yield …
-constexpr double least_tolerance = 1e-3;            ///< … but no less than this
 constexpr std::size_t few_spheres = 1000;           ///< that one thread takes faster than several
 
 /// Brings the spheres into the order of a space-filling curve now and then, for the sake of the cache.
@@ -133,8 +131,7 @@ double fastest_of(const State& state, const std::vector<Flight>& flights, double
 /// of many. What is pinched bears impulses beside which those of all others are small: ε would not see their errors.
 SolverSettings solver_for(const PreparedStep& prepared, SolverSettings solver)
 {
-    const double share = std::clamp(1.0 / prepared.contacts.worst_strain, least_share, 1.0);
-    solver.tolerance = std::min(solver.tolerance, std::max(share * solver.tolerance, least_tolerance));
+    solver.tolerance = tightened(solver.tolerance, 1.0 / prepared.contacts.worst_strain);
     const double ratio = std::min(prepared.impact_ratio, most_ratio);
     if (ratio <= usual_ratio) return solver;
     solver.tolerance = std::min(solver.tolerance, 0.1 / ratio);
