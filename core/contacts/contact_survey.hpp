@@ -11,7 +11,7 @@ struct ContactSurvey {
     std::size_t count = 0;        ///< contacts in the problem, walls included
     std::size_t overlapping = 0;  ///< pairs with g < 0, in the problem or not
     std::size_t impacts = 0;      ///< between spheres or at walls, in the problem
-    double worst_strain = 0.0;    ///< largest overlap of what yields, of that with which it begins to; in the problem
+    double worst_strain = 0.0;    ///< largest overlap beyond that with which contacts yield, of that; in the problem
     double worst_overlap = 0.0;   ///< at the beginning of the step [m]
     double overlap_sum = 0.0;     ///< over the overlapping contacts [m]
     double stored_energy = 0.0;   ///< in the contacts' springs at the beginning of the step [J] …
