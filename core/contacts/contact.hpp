@@ -54,7 +54,7 @@ struct ContactGeometry {
     ContactKind kind = ContactKind::open;
     TouchRecord touch = {};    ///< what is known from the steps before; after carry_impulses with this one
     float compression = 0.0F;  ///< κ: what of the overlap a load has pressed [m]; −∞: it will keep none
-    float held = 0.0F;         ///< what its spring holds then, as the square of a length [m²]
+    float held = 0.0F;         ///< what its spring held before the step, as the square of a length [m²]
     float spring = 0.0F;       ///< Σ_n of its spring, also where it is rigid in this step [1/kg]
     float restitution = 0.0F;  ///< e
     float hands_on = INFINITY; ///< normal impulse at most [N s]

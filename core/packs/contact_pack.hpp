@@ -38,7 +38,7 @@ struct alignas(64) RecordPack {
     double inverse_mass_sum[pack_size]; ///< W [1/kg]
     double compliance[pack_size];       ///< Σ_n [1/kg]
     float compression[pack_size];       ///< κ: what of the overlap a load has pressed [m]; −∞: it will keep none
-    float held[pack_size];              ///< what its spring holds then, as the square of a length [m²]
+    float held[pack_size];              ///< what its spring held before the step, as the square of a length [m²]
     float spring[pack_size];            ///< Σ_n of its spring, also where it is rigid in this step [1/kg]
     float push[pack_size];              ///< what it may put in by pushing out, by its impulse [m/s]
     float restitution[pack_size];       ///< e

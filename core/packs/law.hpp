@@ -168,13 +168,6 @@ template <class N>
     const double per_square = 2.0 * upsilon / (step.h * step.h);
     return per_square * feedback_share<N>(compliance, inverse_mass_sum, step) * square / compliance;
 }
-template <class N>
-[[gnu::always_inline]] inline N spring_energy(
-    const N& kappa, const N& u_n, const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
-{
-    const N square = spring_square<N>(kappa, u_n, compliance, inverse_mass_sum, step);
-    return energy_of_square<N>(square, compliance, inverse_mass_sum, step);
-}
 
 /// When two spheres that move so touch: infinite if never, negative if they overlap and approach [s].
 /// @param approach −Δx·Δv; @param speed_squared of Δv; @param apart |Δx|² − (r_a + r_b)²;

@@ -16,10 +16,11 @@ namespace talus
 namespace
 {
 
-constexpr double unrelaxed = 1.0;        ///< ω of an ordinary sweep, and of all that measures
-constexpr double least_share = 0.1;      ///< of the tolerance, to which it may be tightened …
-constexpr double least_tolerance = 1e-3; ///< … but no further than to this
-constexpr double motion_share = 7.0;     ///< tolerances that errors may be of what contacts change of the motion
+constexpr double unrelaxed = 1.0;         ///< ω of an ordinary sweep, and of all that measures
+constexpr std::size_t few_spheres = 1000; ///< that one thread copies faster than several
+constexpr double least_share = 0.1;       ///< of the tolerance, to which it may be tightened …
+constexpr double least_tolerance = 1e-3;  ///< … but no further than to this
+constexpr double motion_share = 7.0;      ///< tolerances that errors may be of what contacts change of the motion
 
 std::size_t row_variant(const ModelledPhysics& physics)
 {
@@ -126,6 +127,7 @@ double apply_warm_start(
     ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion, const ModelledPhysics& physics)
 {
     network.contacts.free_velocity.resize(motion.size());
+#pragma omp parallel for schedule(static) if (motion.size() > few_spheres)
     for (std::size_t i = 0; i < motion.size(); ++i) network.contacts.free_velocity[i] = motion[i].velocity;
     const TilePasses passes(network, motion, physics);
     PartialSums sums(network.list.tiles.count());

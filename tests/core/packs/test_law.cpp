@@ -77,6 +77,13 @@ struct Between {
     double operator()(double least, double most) { return least + (most - least) * uniform(random); }
 };
 
+/// What a spring holds [J].
+double spring_energy(double kappa, double u_n, double compliance, double inverse_mass_sum, const LawOfStep& step)
+{
+    const double square = spring_square<double>(kappa, u_n, compliance, inverse_mass_sum, step);
+    return energy_of_square<double>(square, compliance, inverse_mass_sum, step);
+}
+
 } // namespace
 
 TEST_CASE("spheres touch when the distance of their free paths is that of their radii", "[law]")
@@ -333,7 +340,7 @@ TEST_CASE("a loaded spring beside any other contacts takes (u_n⁺ + u_n)²/(4 �
         const double after = compression_after<double>(kappa, -kappa, u_after, 1.0, step);
         if (after <= 0.0) continue;
         const auto holds = [&](double compression, double u_n) {
-            return spring_energy<double>(compression, u_n, law.compliance, w, step);
+            return spring_energy(compression, u_n, law.compliance, w, step);
         };
         const double change = 0.5 * impulse * (u_after + u_before) + holds(after, u_after) - holds(kappa, u_before);
         const double sum = u_after + u_before;
@@ -354,7 +361,7 @@ TEST_CASE(
         const auto law = law_of(at, step);
         REQUIRE(law.yields);
         const auto holds = [&](double compression, double u_n) {
-            return compression > 0.0 ? spring_energy<double>(compression, u_n, sigma, w, step) : 0.0;
+            return compression > 0.0 ? spring_energy(compression, u_n, sigma, w, step) : 0.0;
         };
         const double u_after = std::min(between(-0.3, 0.1), law.parting);
         const double most = (law.target - u_after) / law.compliance;
@@ -463,7 +470,7 @@ TEST_CASE("what a spring hands on is its energy, and the same κ where its norma
     const auto takes_over = [&](double handed, double u_n) {
         return taken_over<double>(handed, true, -1e-4, u_n, 0.4, sigma, w, step, root);
     };
-    const auto energy = [&](double kappa, double u_n) { return spring_energy<double>(kappa, u_n, sigma, w, step); };
+    const auto energy = [&](double kappa, double u_n) { return spring_energy(kappa, u_n, sigma, w, step); };
     for (const double u_n : {-0.01, 0.0, 0.01})
         for (const double turned : {u_n - 0.01, u_n, u_n + 0.01}) {
             const double kappa = takes_over(hands_on(1e-4, u_n), turned);
@@ -474,6 +481,9 @@ TEST_CASE("what a spring hands on is its energy, and the same κ where its norma
     CHECK(takes_over(hands_on(1e-6, 0.0), 1.0) == 0.0); // no spring holds so little at that speed
     CHECK(hands_on(0.0, 0.1) == 0.0);                   // no spring
     CHECK(hands_on(0.9e-9 * d, 0.1) == 0.0);
+    CHECK(hands_on(compression_after<double>(1e-5, -1e-5, 0.02, 1.0, step), 0.02) == 0.0); // all is given back
+    CHECK(hands_on(compression_after<double>(1e-4, -1e-4, elastic + 0.5, 0.0, step), elastic + 0.5) == 0.0);
+    CHECK(hands_on(-infinity, -0.1) == 0.0);
     CHECK(takes_over(0.0, -0.1) == 0.0);
     // A spring that a step has pressed is handed on as one, however fast.
     const double after = compression_after<double>(1e-6, -1e-6, -5.0, 0.4, step);
@@ -513,7 +523,7 @@ TEST_CASE("a spring that bears an impact comes to hold no more than it did", "[l
         const double begins = borne_compression<double>(kappa, u_n, step), u_after = bearing_target(-kappa, u_n, step);
         const double after = compression_after<double>(begins, -begins, u_after, 1.0, step);
         const auto holds = [&](double compression, double speed) {
-            return spring_energy<double>(compression, speed, sigma, w, step);
+            return spring_energy(compression, speed, sigma, w, step);
         };
         if (!(after > 0.0)) continue;
         ++kept;

@@ -138,6 +138,13 @@ template <class T> bool same_bytes(const T& a, const T& b)
     return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
+/// What a spring holds [J].
+double spring_energy(double kappa, double u_n, double compliance, double inverse_mass_sum, const LawOfStep& step)
+{
+    const double square = spring_square<double>(kappa, u_n, compliance, inverse_mass_sum, step);
+    return energy_of_square<double>(square, compliance, inverse_mass_sum, step);
+}
+
 } // namespace
 
 TEST_CASE("all instruction sets find the same touches and make the same contacts, to the bit", "[packed_touch]")
@@ -285,9 +292,7 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
         CHECK(all.sums.overlapping[lane] == (gap < 0.0));
         // A spring holds what it held with the κ that it had, and what pushing out has put in; a new one, all of it.
         const bool keeps = law.compression > 0.0, had = keeps && event.compression > touching_gap * 2 * radius;
-        const auto energy = [&](double kappa, double speed) {
-            return spring_energy<double>(kappa, speed, spring, w, step);
-        };
+        const auto energy = [&](double kappa, double speed) { return spring_energy(kappa, speed, spring, w, step); };
         const double kappa = law.compression - (law.yields ? 0.5 * step.h * std::min(0.0, u_n) : 0.0);
         const double held = had ? energy(kappa - law.grown, u_n) : 0.0;
         const double holds = keeps ? energy(kappa, had ? u_n : 0.0) : 0.0;
