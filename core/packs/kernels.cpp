@@ -9,7 +9,7 @@ std::vector<const Kernels*> usable_kernels()
     std::vector<const Kernels*> usable;
 #ifdef __x86_64__
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) usable.push_back(&avx512_kernels);
-    if (__builtin_cpu_supports("avx2")) usable.push_back(&avx2_kernels);
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) usable.push_back(&avx2_kernels);
 #endif
     usable.push_back(&plain_kernels);
     return usable;

@@ -56,6 +56,61 @@ template <int width> [[gnu::always_inline]] inline Numbers<width> root(const Num
     return numbers;
 }
 
+/// a + b, and what rounding has taken of it (Knuth).
+template <int width>
+[[gnu::always_inline]] inline Numbers<width> sum(
+    const Numbers<width>& a, const Numbers<width>& b, Numbers<width>& error)
+{
+    const Numbers<width> both = a + b, of_b = both - a;
+    error = (a - (both - of_b)) + (b - of_b);
+    return both;
+}
+
+/// a b + c, rounded once, without an instruction for it (Boldo & Melquiond 2008): the product is exact in two numbers
+/// (Veltkamp, Dekker), and what is added last is rounded to odd.
+template <int width>
+[[gnu::always_inline]] inline Numbers<width> fused_by_parts(
+    const Numbers<width>& a, const Numbers<width>& b, const Numbers<width>& c)
+{
+    constexpr double splits = 0x1p27 + 1.0;
+    const Numbers<width> a_high = splits * a - (splits * a - a), a_low = a - a_high;
+    const Numbers<width> b_high = splits * b - (splits * b - b), b_low = b - b_high;
+    const Numbers<width> product = a * b;
+    const Numbers<width> product_low = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+    Numbers<width> low, of_high, left;
+    const Numbers<width> middle = sum<width>(c, product_low, low), high = sum<width>(product, middle, of_high);
+    const Numbers<width> last = sum<width>(low, of_high, left);
+    Flags<width> bits;
+    __builtin_memcpy(&bits, &last, sizeof bits);
+    const Flags<width> outwards = (left > 0.0) == (last > 0.0);
+    bits += ((left != 0.0) & ((bits & 1) == 0)) & (outwards ? Flags<width>{} + 1 : Flags<width>{} - 1);
+    Numbers<width> odd;
+    __builtin_memcpy(&odd, &bits, sizeof odd);
+    const Numbers<width> rounded = high + odd;
+    // What is nothing gets its sign, and what splitting has made infinite its size.
+    return (rounded - rounded == 0.0) & (rounded != 0.0) ? rounded : product + c;
+}
+
+/// a b + c, rounded once, in all instruction sets: so results have the same bits.
+template <int width>
+[[gnu::always_inline]] inline Numbers<width> fused(
+    const Numbers<width>& a, const Numbers<width>& b, const Numbers<width>& c)
+{
+#if defined(__AVX512F__) && !defined(__clang__)
+    if constexpr (width == 8) return __builtin_ia32_vfmaddpd512_mask(a, b, c, -1, 4);
+#endif
+#if defined(__FMA__) && !defined(__clang__)
+    if constexpr (width == 4) return __builtin_ia32_vfmaddpd256(a, b, c);
+#endif
+#ifdef __FP_FAST_FMA
+    Numbers<width> numbers;
+    for (int lane = 0; lane < width; ++lane) numbers[lane] = __builtin_fma(a[lane], b[lane], c[lane]);
+    return numbers;
+#else
+    return fused_by_parts<width>(a, b, c);
+#endif
+}
+
 /// All lanes, one or another.
 template <int width> [[gnu::always_inline]] inline std::int64_t united(const Flags<width>& flags)
 {
@@ -130,10 +185,24 @@ template <int width> struct Vector {
     [[gnu::always_inline]] Vector operator+(const Vector& o) const { return {x + o.x, y + o.y, z + o.z}; }
     [[gnu::always_inline]] Vector operator-(const Vector& o) const { return {x - o.x, y - o.y, z - o.z}; }
     [[gnu::always_inline]] Vector operator*(const Numbers<width>& f) const { return {f * x, f * y, f * z}; }
-    [[gnu::always_inline]] Numbers<width> dot(const Vector& o) const { return x * o.x + y * o.y + z * o.z; }
+    [[gnu::always_inline]] Numbers<width> dot(const Vector& o) const
+    {
+        return fused<width>(x, o.x, fused<width>(y, o.y, z * o.z));
+    }
     [[gnu::always_inline]] Vector cross(const Vector& o) const
     {
-        return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
+        return {fused<width>(y, o.z, -(z * o.y)), fused<width>(z, o.x, -(x * o.z)), fused<width>(x, o.y, -(y * o.x))};
+    }
+    /// This and o f.
+    [[gnu::always_inline]] Vector plus(const Vector& o, const Numbers<width>& f) const
+    {
+        return {fused<width>(o.x, f, x), fused<width>(o.y, f, y), fused<width>(o.z, f, z)};
+    }
+    /// This and a × b.
+    [[gnu::always_inline]] Vector plus_cross(const Vector& a, const Vector& b) const
+    {
+        return {fused<width>(a.y, b.z, fused<width>(-a.z, b.y, x)), fused<width>(a.z, b.x, fused<width>(-a.x, b.z, y)),
+            fused<width>(a.x, b.y, fused<width>(-a.y, b.x, z))};
     }
 };
 
@@ -146,24 +215,80 @@ template <int width, int stride, int... i>
     high = __builtin_shufflevector(a, b, (i & stride ? width + i : i + stride)...);
 }
 
-/// Rows become columns.
-template <int width, int stride = width / 2> [[gnu::always_inline]] inline void transpose(Numbers<width>* rows)
+/// In each half of width / 2 registers rows become columns.
+template <int width, int stride = width / 4> [[gnu::always_inline]] inline void transpose_halves(Numbers<width>* rows)
 {
-#pragma GCC unroll 8
-    for (int row = 0; row < width; ++row)
-        if (!(row & stride))
-            exchange<width, stride>(rows[row], rows[row + stride], std::make_integer_sequence<int, width>{});
-    if constexpr (stride > 1) transpose<width, stride / 2>(rows);
+    if constexpr (stride > 0) {
+#pragma GCC unroll 4
+        for (int row = 0; row < width / 2; ++row)
+            if (!(row & stride))
+                exchange<width, stride>(rows[row], rows[row + stride], std::make_integer_sequence<int, width>{});
+        transpose_halves<width, stride / 2>(rows);
+    }
 }
 
-/// Records of eight numbers, number beside number.
-template <int width> [[gnu::always_inline]] inline void gather(Numbers<width>* numbers, const double* const* records)
+/// A register of which each half comes from its own place. (GCC 12 makes of a shuffle what a load can do beside it, and
+/// there is one unit for shuffles: they are what a sweep waits for.)
+template <int width> [[gnu::always_inline]] inline Numbers<width> load_halves(const double* low, const double* high)
 {
-#pragma GCC unroll 4
-    for (int block = 0; block < pack_size; block += width) {
+    if constexpr (width == 2) return Numbers<width>{*low, *high};
+#if defined(__AVX512F__) && !defined(__clang__)
+    if constexpr (width == 8) {
+        const auto first = __builtin_ia32_pd512_256pd(load<4>(low));
+        return __builtin_ia32_insertf64x4_mask(first, load<4>(high), 1, first, -1);
+    }
+#endif
+    if constexpr (width == 4) return __builtin_shufflevector(load<2>(low), load<2>(high), 0, 1, 2, 3);
+    if constexpr (width == 8) return __builtin_shufflevector(load<4>(low), load<4>(high), 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+template <int width> [[gnu::always_inline]] inline void store_low_half(double* to, const Numbers<width>& numbers)
+{
+    if constexpr (width == 2) *to = numbers[0];
+    if constexpr (width == 4) store<2>(to, __builtin_shufflevector(numbers, numbers, 0, 1));
+    if constexpr (width == 8) store<4>(to, __builtin_shufflevector(numbers, numbers, 0, 1, 2, 3));
+}
+
+template <int width> [[gnu::always_inline]] inline void store_high_half(double* to, const Numbers<width>& numbers)
+{
+    if constexpr (width == 2) *to = numbers[1];
+#if defined(__AVX__) && !defined(__clang__)
+    if constexpr (width == 4) return store<2>(to, __builtin_ia32_vextractf128_pd256(numbers, 1));
+#endif
+#if defined(__AVX512F__) && !defined(__clang__)
+    if constexpr (width == 8) return store<4>(to, __builtin_ia32_extractf64x4_mask(numbers, 1, Numbers<4>{}, -1));
+#endif
+    if constexpr (width == 4) store<2>(to, __builtin_shufflevector(numbers, numbers, 2, 3));
+    if constexpr (width == 8) store<4>(to, __builtin_shufflevector(numbers, numbers, 4, 5, 6, 7));
+}
+
+/// Records of `count` numbers, number beside number.
+template <int width, int count>
+[[gnu::always_inline]] inline void gather(Numbers<width> (&numbers)[count], const double* const* records)
+{
+    constexpr int half = width / 2;
 #pragma GCC unroll 8
-        for (int lane = 0; lane < width; ++lane) numbers[block + lane] = load<width>(records[lane] + block);
-        transpose<width>(numbers + block);
+    for (int block = 0; block < count; block += half) {
+#pragma GCC unroll 4
+        for (int k = 0; k < half; ++k)
+            numbers[block + k] = load_halves<width>(records[k] + block, records[k + half] + block);
+        transpose_halves<width>(numbers + block);
+    }
+}
+
+/// Puts records where they belong, those of lanes that have a place. @tparam full all have
+template <int width, int count, bool full = false>
+[[gnu::always_inline]] inline void scatter(Numbers<width> (&numbers)[count], double* const* records)
+{
+    constexpr int half = width / 2;
+#pragma GCC unroll 8
+    for (int block = 0; block < count; block += half) {
+        transpose_halves<width>(numbers + block);
+#pragma GCC unroll 4
+        for (int k = 0; k < half; ++k) {
+            if (full || records[k]) store_low_half<width>(records[k] + block, numbers[block + k]);
+            if (full || records[k + half]) store_high_half<width>(records[k + half] + block, numbers[block + k]);
+        }
     }
 }
 

@@ -29,14 +29,11 @@ template <int width, bool full> struct Spheres {
     }
     [[gnu::always_inline]] void scatter(const std::int32_t* sphere, double* motion)
     {
-#pragma GCC unroll 4
-        for (int block = 0; block < motion_size; block += width) {
-            transpose<width>(number + block);
+        double* to[width];
 #pragma GCC unroll 8
-            for (int lane = 0; lane < width; ++lane)
-                if (full || sphere[lane] >= 0)
-                    store<width>(motion + std::int64_t{motion_size} * sphere[lane] + block, number[block + lane]);
-        }
+        for (int lane = 0; lane < width; ++lane)
+            to[lane] = full || sphere[lane] >= 0 ? motion + std::int64_t{motion_size} * sphere[lane] : nullptr;
+        packs::scatter<width, motion_size, full>(number, to);
     }
     [[gnu::always_inline]] Vector<width> velocity() const
     {
@@ -123,12 +120,10 @@ template <int width, bool wall, class R, bool full> struct Contacts {
         Vector<width> u = a.velocity();
         if constexpr (!wall) u = u - b.velocity();
         if constexpr (wall && R::moving_walls) u = u - Vector<width>::load(walls->velocity, first);
-        if constexpr (spins) {
-            Vector<width> rim = a.rim_velocity();
-            if constexpr (!wall) rim = rim + b.rim_velocity();
-            u = u + normal.cross(rim) * arm_scale;
-        }
-        return u;
+        if constexpr (!spins) return u;
+        Vector<width> rim = a.rim_velocity();
+        if constexpr (!wall) rim = rim + b.rim_velocity();
+        return u.plus_cross(normal * arm_scale, rim);
     }
 
     /// W
@@ -141,12 +136,12 @@ template <int width, bool wall, class R, bool full> struct Contacts {
     /// v ← v + M⁻¹ Gᵀ p.
     [[gnu::always_inline]] void apply(const Vector<width>& p)
     {
-        a.set_velocity(a.velocity() + p * a.inverse_mass());
-        if constexpr (!wall) b.set_velocity(b.velocity() - p * b.inverse_mass());
+        a.set_velocity(a.velocity().plus(p, a.inverse_mass()));
+        if constexpr (!wall) b.set_velocity(b.velocity().plus(p, -b.inverse_mass()));
         if constexpr (spins) {
-            const Vector<width> turn = normal.cross(p) * (inverse_inertia * arm_scale);
-            a.set_rim_velocity(a.rim_velocity() - turn * a.inverse_mass());
-            if constexpr (!wall) b.set_rim_velocity(b.rim_velocity() - turn * b.inverse_mass());
+            const Vector<width> turn = (normal * arm_scale).cross(p);
+            a.set_rim_velocity(a.rim_velocity().plus(turn, -inverse_inertia * a.inverse_mass()));
+            if constexpr (!wall) b.set_rim_velocity(b.rim_velocity().plus(turn, -inverse_inertia * b.inverse_mass()));
         }
     }
 
@@ -154,21 +149,24 @@ template <int width, bool wall, class R, bool full> struct Contacts {
     [[gnu::always_inline]] Vector<width> solved(const Vector<width>& impulse, double relaxation) const
     {
         const Vector<width> u = velocity();
-        const Numbers<width> u_n = u.dot(normal), old_normal = impulse.dot(normal);
+        const Numbers<width> u_n = u.dot(normal), old_normal = impulse.dot(normal), none = {}, one = none + 1.0;
         const Numbers<width> mass = load<width>(pack.normal_mass + first);
         // (u_n + Σ λ_n − q)/(W + Σ), and Σ/(W + Σ) = 1 − W/(W + Σ).
-        const Numbers<width> of_spring =
-            (u_n - load<width>(pack.target + first)) * mass + old_normal * (1.0 - inverse_mass_sum() * mass);
+        const Numbers<width> of_spring = fused<width>(
+            u_n - load<width>(pack.target + first), mass, fused<width>(-inverse_mass_sum(), mass, one) * old_normal);
         Numbers<width> tangent_mass = load<width>(pack.tangent_mass + first), rigid_mass = tangent_mass;
-        if constexpr (spins) rigid_mass = tangent_mass * (1.0 + inverse_inertia * (arm_scale * arm_scale)); // 1/W
+        if constexpr (spins) // 1/W
+            rigid_mass = fused<width>(inverse_inertia * (arm_scale * arm_scale), tangent_mass, tangent_mass);
         const Numbers<width> of_parting = (u_n - load<width>(pack.parting + first)) * rigid_mass;
-        const Numbers<width> wanted = old_normal - relaxation * (of_spring < of_parting ? of_parting : of_spring);
-        const Numbers<width> new_normal = wanted < 0.0 ? Numbers<width>{} : wanted;
+        const Numbers<width> wanted =
+            fused<width>(none - relaxation, of_spring < of_parting ? of_parting : of_spring, old_normal);
+        const Numbers<width> new_normal = wanted < 0.0 ? none : wanted;
         if constexpr (!R::friction) return normal * new_normal;
         tangent_mass = relaxation * tangent_mass;
-        Vector<width> tangent = (impulse - normal * old_normal) - (u - normal * u_n) * tangent_mass;
+        Vector<width> tangent = impulse.plus(u, -tangent_mass);
+        tangent = tangent.plus(normal, fused<width>(u_n, tangent_mass, -old_normal));
         cut_to_disk<width>(tangent, load<width>(pack.friction + first) * new_normal);
-        return normal * new_normal + tangent;
+        return tangent.plus(normal, new_normal);
     }
 
     /// The rolling rows, METHOD (8). @param impulse of the contact as it stands
@@ -204,8 +202,8 @@ template <int width, bool wall, class R, bool full> struct Contacts {
         const Numbers<width> weight = inverse_mass_sum();
         const Vector<width> impulse = Vector<width>::load(pack.impulse, first);
         const Vector<width> next = solved(impulse, relaxation), change = next - impulse;
-        sums.change[group] += weight * change.dot(change);
-        sums.size[group] += weight * next.dot(next);
+        sums.change[group] = fused<width>(weight, change.dot(change), sums.change[group]);
+        sums.size[group] = fused<width>(weight, next.dot(next), sums.size[group]);
         if constexpr (apply_change) {
             next.store(pack.impulse, first);
             apply(change);

@@ -19,7 +19,7 @@ template <int width> struct Balls {
         const double* records[width];
         for (int lane = 0; lane < width; ++lane) records[lane] = balls[sphere[lane]].center;
         Numbers<width> numbers[4];
-        gather_four<width>(numbers, records);
+        gather<width>(numbers, records);
         center = {numbers[0], numbers[1], numbers[2]};
         radius = numbers[3];
     }
@@ -102,7 +102,7 @@ template <int width>
     const Flags<width> touching = touches<Numbers<width>>(distance - radii, step.law),
                        ahead = (!touching) & (approach > 0.0);
     const Numbers<width> instant = ahead ? smaller<Numbers<width>>(closes, nearest) : none;
-    const Vector<width> then = apart + velocity * instant;
+    const Vector<width> then = apart.plus(velocity, instant);
     const Numbers<width> distance_then = root<width>(then.dot(then));
     // Spheres with one centre are pushed apart along a fixed direction: any will do, but always the same.
     const Flags<width> separate = distance_then > 0.0;
@@ -128,14 +128,14 @@ template <int width>
     const Numbers<width>& friction, const Flags<width>& impact)
 {
     const Numbers<width> along = carried.dot(normal), normal_impulse = larger<Numbers<width>>(Numbers<width>{}, along);
-    Vector<width> tangent = carried - normal * along;
+    Vector<width> tangent = carried.plus(normal, -along);
     const Numbers<width> largest = friction * normal_impulse, square = tangent.dot(tangent);
     const Flags<width> outside = square > largest * largest;
     if (any<width>(outside)) {
         const Numbers<width> one = square * 0.0 + 1.0;
         tangent = tangent * (outside ? largest / root<width>(outside ? square : one) : one);
     }
-    const Vector<width> warm = normal * normal_impulse + tangent;
+    const Vector<width> warm = tangent.plus(normal, normal_impulse);
     const Numbers<width> none = {};
     return {impact ? none : warm.x, impact ? none : warm.y, impact ? none : warm.z};
 }
@@ -225,7 +225,7 @@ template <int width>
         slot[lane] = is_empty ? record.slot[0] : record.slot[first + lane];
     }
     Numbers<width> law[4];
-    gather_four<width>(law, laws);
+    gather<width>(law, laws);
     store<width>(contact.friction + first, law[0]);
     store<width>(touch.restitution + first, law[1]);
     store<width>(touch.stiffness + first, law[3]);
@@ -304,7 +304,7 @@ unsigned hand_on(
         const Vector<width> normal = Vector<width>::load(contact.normal, first);
         const Vector<width> impulse = Vector<width>::load(contact.impulse, first);
         const N along = impulse.dot(normal), none = {};
-        const Vector<width> tangent = impulse - normal * along;
+        const Vector<width> tangent = impulse.plus(normal, -along);
         const N tangent_squared = tangent.dot(tangent), most_tangent = load<width>(contact.friction + first) * along;
         N excess = none;
         if (const F outside = tangent_squared > most_tangent * most_tangent; any<width>(outside))

@@ -109,7 +109,7 @@ struct Touches {
             const double along = std::max(0.0, 3e-4 * (uniform(random) - 0.2));
             const Vec3 other(uniform(random), uniform(random), uniform(random));
             const Vec3 tangent = 1e-4 * (other - other.dot(normal(lane)) * normal(lane));
-            if (!holds(lane)) continue;
+            if (!holds(lane) || along == 0.0) continue; // without a load there is no friction
             for (int d = 0; d < 3; ++d) contact.impulse[d][lane] = along * normal(lane)[d] + tangent[d];
         }
     }
