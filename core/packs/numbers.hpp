@@ -227,8 +227,8 @@ template <int width, int stride = width / 4> [[gnu::always_inline]] inline void 
     }
 }
 
-/// A register of which each half comes from its own place. (GCC 12 makes of a shuffle what a load can do beside it, and
-/// there is one unit for shuffles: they are what a sweep waits for.)
+/// A register of which each half comes from its own place. (Written as a shuffle, GCC 12 makes one of it where a load
+/// would do, and a processor has one unit for shuffles, which limits a sweep.)
 template <int width> [[gnu::always_inline]] inline Numbers<width> load_halves(const double* low, const double* high)
 {
     if constexpr (width == 2) return Numbers<width>{*low, *high};
@@ -242,6 +242,7 @@ template <int width> [[gnu::always_inline]] inline Numbers<width> load_halves(co
     if constexpr (width == 8) return __builtin_shufflevector(load<4>(low), load<4>(high), 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
+/// Stores one half of a register alone.
 template <int width> [[gnu::always_inline]] inline void store_low_half(double* to, const Numbers<width>& numbers)
 {
     if constexpr (width == 2) *to = numbers[0];

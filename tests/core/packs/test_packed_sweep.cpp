@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/packs/kernels.hpp"
+#include "core/packs/numbers.hpp"
 #include "core/solver/gauss_seidel.hpp"
 #include "core/solver/whole_contact.hpp"
 #include "tests/support/contacts.hpp"
 #include "tests/support/world.hpp"
 
+#include <cmath>
 #include <cstring>
 #include <set>
 
@@ -102,6 +104,25 @@ TEST_CASE("all instruction sets give the same bits, whatever a scene models", "[
         CAPTURE(kernels->instructions);
         CHECK(swept_by(*kernels, world) == plain);
     }
+}
+
+TEST_CASE("a multiply-add made by parts has the bits of one that is rounded once", "[packed_sweep]")
+{
+    Random random(3);
+    const auto any = [&] {
+        const double size = std::ldexp(1.0 + uniform(random), static_cast<int>(60 * uniform(random)) - 30);
+        const double kind = uniform(random);
+        return kind < 0.02 ? 0.0 : kind < 0.04 ? -0.0 : kind < 0.5 ? -size : size;
+    };
+    std::size_t wrong = 0;
+    for (int k = 0; k < 1000000; ++k) {
+        const double a = any(), b = any(), kind = uniform(random);
+        const double c = kind < 0.3 ? -a * b : kind < 0.5 ? -a * b * (1.0 + 0x1p-52) : any(); // what cancels, too
+        const packs::Numbers<2> as{a, a}, bs{b, b}, cs{c, c}, made = packs::fused_by_parts<2>(as, bs, cs);
+        const double found = made[0], expected = std::fma(a, b, c);
+        wrong += std::memcmp(&found, &expected, sizeof found) != 0;
+    }
+    CHECK(wrong == 0);
 }
 
 TEST_CASE("no two contacts of a pack share a sphere, and those of large tiles are nearly full", "[packed_sweep]")
