@@ -89,8 +89,9 @@ struct Carried {
     CarriedImpulses walls;          ///< by wall slot of the candidate list
     std::vector<Vec3> wall_normal;  ///< by wall slot: the normal by which the next step knows a wall contact again
     double impulse_step = infinity; ///< for how long the impulses have acted [s]; infinite before the first step
+    bool of_heavy_impact = false;   ///< the impulses are of a step in which something struck what is much lighter
 
-    void persist(Archive& archive) { archive(walls, wall_normal, impulse_step); }
+    void persist(Archive& archive) { archive(walls, wall_normal, impulse_step, of_heavy_impact); }
 };
 
 } // namespace talus

@@ -45,10 +45,8 @@ public:
             const double u_n = contacts_.normal(k).dot(state_.motion[contacts_.a(k)].velocity - velocity_of_other(k));
             if (!settle_one(k, u_n, step)) continue;
             const std::int32_t a = contacts_.a(k);
-            const double other_a = state_.motion[a].inverse_mass;
-            const double other_b = with_walls_ ? 0.0 : state_.motion[contacts_.b(k)].inverse_mass;
-            ratio = std::max(ratio, mass_ratio(a, other_b));
-            if (!with_walls_) ratio = std::max(ratio, mass_ratio(contacts_.b(k), other_a));
+            ratio = std::max(ratio, mass_ratio(a, with_walls_ ? 0.0 : state_.motion[contacts_.b(k)].inverse_mass));
+            if (!with_walls_) ratio = std::max(ratio, mass_ratio(contacts_.b(k), state_.motion[a].inverse_mass));
         }
         return ratio;
     }
@@ -59,11 +57,13 @@ private:
     std::vector<SphereImpacts>& impacts_;
     const State& state_;
 
-    /// Of a sphere between what strikes it and the other one that bears it: its share of what a sweep leaves undone.
+    /// Of what strikes a sphere, to the sphere's; beyond `most_impact_ratio` that of what is heavier on both sides of
+    /// it.
     double mass_ratio(std::int32_t sphere, double inverse_mass_of_other) const
     {
-        const double mass = impacts_[sphere].mass;
-        return mass > 0.0 ? state_.motion[sphere].inverse_mass / (1.0 / mass + inverse_mass_of_other) : 0.0;
+        const double mass = impacts_[sphere].mass, inverse_mass = state_.motion[sphere].inverse_mass;
+        if (mass * inverse_mass <= most_impact_ratio) return mass * inverse_mass;
+        return inverse_mass / (1.0 / mass + inverse_mass_of_other);
     }
 
     /// As bits.

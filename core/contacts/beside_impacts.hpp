@@ -9,9 +9,13 @@
 namespace talus
 {
 
+/// Of what strikes, to what bears it: up to this, columns of what bears are solved to their end.
+inline constexpr double most_impact_ratio = 1100.0;
+
 /// Gives the contacts of spheres that have impacts the law that they have beside these, METHOD (4): those without a
 /// load are deferred to the next step, those with one bear.
-/// @return the greatest ratio of a mass that strikes a sphere to the sphere's, where another contact bears it; 0: none
+/// @return the greatest ratio of a mass that strikes a sphere to the sphere's, where another contact of it bears, and
+/// beyond `most_impact_ratio` of what is as heavy on both sides of it; 0: none
 double stand_beside_impacts(ContactNetwork& network, const State& state, const Model& model, const LawOfStep& step);
 
 } // namespace talus

@@ -20,6 +20,8 @@ constexpr double unrelaxed = 1.0;         ///< ω of an ordinary sweep, and of a
 constexpr std::size_t few_spheres = 1000; ///< that one thread copies faster than several
 constexpr double least_share = 0.1;       ///< of the tolerance, to which it may be tightened …
 constexpr double least_tolerance = 1e-3;  ///< … but no further than to this
+constexpr double errors_left = 2.0;       ///< tolerances that may be missing at the end, by how fast sweeps converge
+constexpr double slowest = 1e-5;          ///< 1 − ρ that differs from none
 constexpr double motion_share = 7.0;      ///< tolerances that errors may be of what contacts change of the motion
 
 std::size_t row_variant(const ModelledPhysics& physics)
@@ -58,6 +60,15 @@ struct TilePasses {
 double residual(const SweepSums& sums, double warm_size)
 {
     return sums.change == 0.0 ? 0.0 : std::sqrt(sums.change / std::max(sums.size, warm_size));
+}
+
+/// What of a tolerance sweeps that change so much may leave as ε: where every sweep changes ρ of what the last one did,
+/// 1/(1 − ρ) of a change are still missing.
+double share_of_tolerance(double change, double last_change)
+{
+    if (change == 0.0) return 1.0;
+    const double left = errors_left * (1.0 - change / last_change);
+    return left > slowest ? std::min(left, 1.0) : slowest;
 }
 
 /// Σ m |v − v⁽¹⁾|², twice the kinetic energy of what contacts have changed of the spheres' motion [J].
@@ -178,8 +189,9 @@ SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::v
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
         // Every thread goes through the same loop with the same numbers.
         int sweeps = sweeps_made;
-        double change = infinity, error = infinity, asked = solver.tolerance;
-        while (error > asked && sweeps < solver.max_sweeps) {
+        double change = infinity, error = infinity, tolerance = solver.tolerance;
+        bool converged = false;
+        while (!converged && sweeps < solver.max_sweeps) {
             auto& sums = swept[static_cast<std::size_t>(sweeps % 2)];
             const double relaxation = relaxation_of(sweeps, physics, solver);
             sweep(crew, passes, pistons, motion, relaxation, sums);
@@ -188,21 +200,24 @@ SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::v
             // the last.
             const double last_change = std::exchange(change, residual(sums.total(relaxation), warm_size));
             const double expected = change < last_change ? change * change / last_change : change;
+            const double asked = solver.to_the_end ? tolerance * share_of_tolerance(change, last_change) : tolerance;
             const bool ready = sweeps >= solver.min_sweeps && (expected <= asked || change == 0.0);
             if (!ready && sweeps < solver.max_sweeps) continue;
             crew.all_at_once([&](std::size_t tile) { measured.of_tile[tile] = passes.measure(tile); });
             if (!pistons.empty()) crew.by_one([&] { measured.of_pistons = pistons.measure(motion.data()); });
             const SweepSums sums_of_error = measured.total(unrelaxed);
             error = residual(sums_of_error, warm_size);
-            if (error > asked || solver.stabilisation == Stabilisation::projected) continue;
+            converged = error <= asked;
+            if (!converged || solver.stabilisation == Stabilisation::projected) continue;
             // Where loads are large beside what they change of the motion, errors that are small beside them are not,
             // and springs go on with them. (Rigid rows that contradict each other only grow with further sweeps.)
             crew.by_one([&] { changed = changed_motion(network.contacts.free_velocity, motion); });
             const double size = std::max(sums_of_error.size, warm_size);
-            asked = tightened(solver.tolerance, size > 0.0 ? motion_share * std::sqrt(changed / size) : 1.0);
+            tolerance = tightened(solver.tolerance, size > 0.0 ? motion_share * std::sqrt(changed / size) : 1.0);
+            converged = error <= tolerance;
         }
 #pragma omp single nowait
-        report = {sweeps, error, error <= asked};
+        report = {sweeps, error, converged};
     });
     return report;
 }

@@ -44,7 +44,9 @@ double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, 
 /// are no more than seven tolerances of what contacts have changed of them, (Σ W|δ|² / Σ m|v − v⁽¹⁾|²)^½; but for that
 /// no less than a tenth of the tolerance, nor than 1e-3. The changes made by the sweeps tell when ε may be small
 /// enough; then a pass that changes nothing measures ε itself, and the sweeps go on if it is not.
-/// @param warm_size Σ W|λ⁰|² of the warm start
+/// To the end they go until ε ≤ tolerance · min(1, 2 (1 − ρ)), ρ what the last sweep has changed of what the one before
+/// it did.
+/// @param warm_size Σ W|λ⁰|² of the warm start, where that is a measure
 /// @param sweeps_made sweeps of this step that were made before, and count
 SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
     const ModelledPhysics& physics, const SolverSettings& solver, double warm_size, int sweeps_made = 0);

@@ -21,8 +21,9 @@ namespace
 
 constexpr std::int64_t audit_interval = 16;         ///< steps; gains of contacts are looked for in one of so many
 constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
-constexpr double usual_ratio = 10.0;                ///< of what strikes and bears a sphere, to its own mass
-constexpr double most_ratio = 300.0;                ///< … up to which an impact is solved further
+constexpr double usual_ratio = 10.0;                ///< of what strikes a sphere that bears it, to its own mass …
+constexpr int most_sweeps = 3000;                   ///< … beyond which a step may take so many sweeps …
+constexpr double beyond_ratio = 300.0;              ///< … and what is beyond even that, those for this ratio
 constexpr std::size_t few_spheres = 1000;           ///< that one thread takes faster than several
 
 /// Brings the spheres into the order of a space-filling curve now and then, for the sake of the cache.
@@ -126,16 +127,16 @@ double fastest_of(const State& state, const std::vector<Flight>& flights, double
     return fastest;
 }
 
-/// Where a sphere is struck by a heavier one and borne by another, R > 10 times its mass both, sweeps that stop at the
-/// usual ε leave most of the impact undone: such a step converges further, and is cheaper in the end than the bounces
-/// of many. What is pinched bears impulses beside which those of all others are small: ε would not see their errors.
+/// What an impact of something much heavier than what bears it leaves undone in its step, takes the bounces of many.
+/// What is pinched bears impulses beside which those of all others are small: ε would not see their errors.
 SolverSettings solver_for(const PreparedStep& prepared, SolverSettings solver)
 {
     solver.tolerance = tightened(solver.tolerance, 1.0 / prepared.contacts.worst_strain);
-    const double ratio = std::min(prepared.impact_ratio, most_ratio);
-    if (ratio <= usual_ratio) return solver;
-    solver.tolerance = std::min(solver.tolerance, 0.1 / ratio);
-    solver.max_sweeps = std::max(solver.max_sweeps, static_cast<int>(3.0 * ratio));
+    if (prepared.impact_ratio <= usual_ratio) return solver;
+    solver.to_the_end = prepared.impact_ratio <= most_impact_ratio;
+    if (!solver.to_the_end) solver.tolerance = std::min(solver.tolerance, 0.1 / beyond_ratio);
+    const int sweeps = solver.to_the_end ? most_sweeps : static_cast<int>(3.0 * beyond_ratio);
+    solver.max_sweeps = std::max(solver.max_sweeps, sweeps);
     return solver;
 }
 
@@ -208,6 +209,8 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     double warm_size = apply_warm_start(network, pistons, state.motion, model.physics);
     // The impulse of an impact does not grow with the step: it must not loosen the measure of the others.
     if (prepared.impulse_scale > 1.0) warm_size /= prepared.impulse_scale * prepared.impulse_scale;
+    // Nor may one of something heavy that a column has borne, which hands it on.
+    if (network.carried.of_heavy_impact) warm_size = 0.0;
 
     // Where the load has changed, the pressure changes with it, through the whole bed at once: λ ← θ λ. First what is
     // local must be out of the way: contacts that open, and impacts.
@@ -220,13 +223,14 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     }
 
     // The contact impulses: every contact in turn until all laws hold.
-    report.solve = solve_contacts(
-        network, pistons, state.motion, model.physics, solver_for(prepared, model.solver), warm_size, sweeps);
+    const SolverSettings solver = solver_for(prepared, model.solver);
+    report.solve = solve_contacts(network, pistons, state.motion, model.physics, solver, warm_size, sweeps);
     pistons.store(network, state);
     if (fastest_of(state, prepared.flights, h, fastest) > fastest) {
         network.before.put_back(state);
         return std::nullopt;
     }
+    network.carried.of_heavy_impact = solver.to_the_end;
     if (!step.is_split() && state.steps % audit_interval == 0)
         report.contact_gain = audit_interval * contact_gain(network, state, model, h);
     if (model.physics.wall_loads) report.wall_loads = wall_loads(network, state, model.walls.size());

@@ -25,6 +25,7 @@ struct SolverSettings {
     double restitution_threshold = 3.0; ///< impacts slower than this times gravity × step do not rebound
     double push_out_speed = infinity;   ///< with which overlap is undone that no load has pressed [m/s]
     bool pressure_scaling = false;      ///< before the sweeps, see pressure_scaling/; with `projected` only
+    bool to_the_end = false;            ///< the tolerance is on what all further sweeps would change, METHOD (9)
 };
 
 /// How long a step is: the model's time step, or one of the equal sub-steps into which it is split where something is
