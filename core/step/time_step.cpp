@@ -22,8 +22,9 @@ namespace
 constexpr std::int64_t audit_interval = 16;         ///< steps; gains of contacts are looked for in one of so many
 constexpr std::int64_t renumbering_interval = 1000; ///< steps between renumberings along a curve
 constexpr double usual_ratio = 10.0;                ///< of what strikes a sphere that bears it, to its own mass …
-constexpr int most_sweeps = 3000;                   ///< … beyond which a step may take so many sweeps …
-constexpr double beyond_ratio = 300.0;              ///< … and what is beyond even that, those for this ratio
+constexpr int most_sweeps = 3000;                   ///< … beyond which a step goes to its end, in so many sweeps;
+constexpr double tolerance_beyond = 0.1 / 300.0;    ///< … that of a ratio beyond `most_impact_ratio` …
+constexpr int most_sweeps_beyond = 900;             ///< … and its sweeps
 constexpr std::size_t few_spheres = 1000;           ///< that one thread takes faster than several
 
 /// Brings the spheres into the order of a space-filling curve now and then, for the sake of the cache.
@@ -134,9 +135,8 @@ SolverSettings solver_for(const PreparedStep& prepared, SolverSettings solver)
     solver.tolerance = tightened(solver.tolerance, 1.0 / prepared.contacts.worst_strain);
     if (prepared.impact_ratio <= usual_ratio) return solver;
     solver.to_the_end = prepared.impact_ratio <= most_impact_ratio;
-    if (!solver.to_the_end) solver.tolerance = std::min(solver.tolerance, 0.1 / beyond_ratio);
-    const int sweeps = solver.to_the_end ? most_sweeps : static_cast<int>(3.0 * beyond_ratio);
-    solver.max_sweeps = std::max(solver.max_sweeps, sweeps);
+    if (!solver.to_the_end) solver.tolerance = std::min(solver.tolerance, tolerance_beyond);
+    solver.max_sweeps = std::max(solver.max_sweeps, solver.to_the_end ? most_sweeps : most_sweeps_beyond);
     return solver;
 }
 

@@ -346,6 +346,17 @@ Fault live_drop_on_one(Draw& draw)
     return told(drop) + text(": e %.4g, and %.4f of its speed comes back", e, back);
 }
 
+/// Rigid beads, one on the other, bear what is much heavier as one.
+Fault live_drop_on_rigid_column(Draw& draw)
+{
+    Drop drop = any_drop(draw, 1, 6, 100);
+    drop.law = Stabilisation::projected;
+    drop.ratio = draw.log_uniform(11, drop.beads == 1 ? 1000 : 100);
+    const double e = any_restitution(draw), back = rebound(drop, e);
+    if (std::abs(back - e) <= 0.15) return {};
+    return told(drop) + text(": e %.4g, and %.4f of its speed comes back", e, back);
+}
+
 /// More comes back where e is greater.
 Fault rising(Draw& draw)
 {
@@ -400,6 +411,12 @@ TEST_CASE("a sphere up to ten times as heavy as the resting bead that it meets c
     "[restitution][bead]")
 {
     for_all_worlds(1.0, live_drop_on_one);
+}
+
+TEST_CASE("with rigid contacts what is much heavier comes back from a column with about e times its speed",
+    "[restitution][rigid_column]")
+{
+    for_all_worlds(1.0 / 4, live_drop_on_rigid_column);
 }
 
 TEST_CASE("more comes back where the restitution is greater", "[restitution][rising][!mayfail]")
