@@ -129,12 +129,14 @@ double fastest_of(const State& state, const std::vector<Flight>& flights, double
 }
 
 /// What an impact of something much heavier than what bears it leaves undone in its step, takes the bounces of many.
-/// What is pinched bears impulses beside which those of all others are small: ε would not see their errors.
+/// What is pinched bears impulses beside which those of all others are small: ε would not see their errors. But with
+/// sweeps to the end they would only grow, where walls leave no room.
 SolverSettings solver_for(const PreparedStep& prepared, SolverSettings solver)
 {
     solver.tolerance = tightened(solver.tolerance, 1.0 / prepared.contacts.worst_strain);
-    if (prepared.impact_ratio <= usual_ratio) return solver;
-    solver.to_the_end = prepared.impact_ratio <= most_impact_ratio;
+    const bool is_beyond = prepared.impact_ratio > most_impact_ratio, is_pinched = prepared.contacts.worst_strain > 0.0;
+    if (prepared.impact_ratio <= usual_ratio || (is_pinched && !is_beyond)) return solver;
+    solver.to_the_end = !is_beyond;
     if (!solver.to_the_end) solver.tolerance = std::min(solver.tolerance, tolerance_beyond);
     solver.max_sweeps = std::max(solver.max_sweeps, solver.to_the_end ? most_sweeps : most_sweeps_beyond);
     return solver;
@@ -209,8 +211,9 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
     double warm_size = apply_warm_start(network, pistons, state.motion, model.physics);
     // The impulse of an impact does not grow with the step: it must not loosen the measure of the others.
     if (prepared.impulse_scale > 1.0) warm_size /= prepared.impulse_scale * prepared.impulse_scale;
-    // Nor may one of something heavy that a column has borne, which hands it on.
-    if (network.carried.of_heavy_impact) warm_size = 0.0;
+    // Nor may one of something heavy that a column has borne, which hands it on: what counts is the load before.
+    const double shorter = std::min(1.0, prepared.impulse_scale);
+    warm_size = std::min(warm_size, shorter * shorter * network.carried.load_before_impact);
 
     // Where the load has changed, the pressure changes with it, through the whole bed at once: λ ← θ λ. First what is
     // local must be out of the way: contacts that open, and impacts.
@@ -230,7 +233,7 @@ std::optional<StepReport> advance_once(const StepLength& step, double fastest, S
         network.before.put_back(state);
         return std::nullopt;
     }
-    network.carried.of_heavy_impact = solver.to_the_end;
+    network.carried.load_before_impact = solver.to_the_end ? warm_size : infinity;
     if (!step.is_split() && state.steps % audit_interval == 0)
         report.contact_gain = audit_interval * contact_gain(network, state, model, h);
     if (model.physics.wall_loads) report.wall_loads = wall_loads(network, state, model.walls.size());
