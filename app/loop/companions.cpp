@@ -4,8 +4,8 @@
 #include "app/loop/schedule.hpp"
 #include "app/loop/step_cost.hpp"
 #include "core/base/region.hpp"
-#include "scenarios/build/sensors.hpp"
-#include "scenarios/build/solver.hpp"
+#include "scenarios/builder/sensors.hpp"
+#include "scenarios/builder/solver.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 
 #include "core/base/archive.hpp"
 #include "core/base/statistics.hpp"
+#include "core/simulation/simulation.hpp"
 #include "core/step/time_step.hpp"
 #include "io/run/summary.hpp"
 #include "scenarios/scene.hpp"
-#include "scenarios/simulation.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/base/archive.hpp"
+#include "core/simulation/simulation.hpp"
 #include "io/run/summary.hpp"
 #include "scenarios/scene.hpp"
-#include "scenarios/simulation.hpp"
 
 #include <cstdint>
 #include <limits>

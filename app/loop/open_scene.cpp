@@ -5,7 +5,7 @@
 #include "app/system/terminal.hpp"
 #include "io/scene/accuracy_file.hpp"
 #include "io/text/input_error.hpp"
-#include "scenarios/build/build_scene.hpp"
+#include "scenarios/builder/build_scene.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -56,8 +56,8 @@ OpenedScene build_opened(SceneFile file, std::string name)
     if (!file.scene.accuracy.empty())
         file.scene.measured = read_measured_settings(own_files() / "scenarios" / "accuracy" / "settings.toml");
     try {
-        auto [simulation, report] = build_scene(file.scene);
-        return {std::move(name), std::move(file.scene), std::move(simulation), std::move(report)};
+        auto [simulation, report, output] = build_scene(file.scene);
+        return {std::move(name), std::move(file.scene), std::move(simulation), std::move(report), std::move(output)};
     } catch (const SceneError& error) {
         const std::string first =
             error.first_key.empty() ? "" : fmt::format("; the first is at {}", file.place_of(error.first_key));

@@ -3,7 +3,8 @@
 
 #include "io/run/folder_lock.hpp"
 #include "io/scene/scene_file.hpp"
-#include "scenarios/build/build_report.hpp"
+#include "scenarios/builder/build_report.hpp"
+#include "scenarios/output_choice.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -27,7 +28,8 @@ struct OpenedScene {
     std::string name; ///< of the file, without folder and ending
     scene::Scene scene;
     Simulation simulation;
-    BuildReport report; ///< what there is to tell of the simulation as it was built
+    BuildReport report; ///< what there is to report of the simulation as it was built
+    OutputChoice output;
 };
 
 /// The file of a scene that is given as a path or a name in scenarios/.

@@ -53,14 +53,14 @@ std::string deepest_now(const Simulation& simulation)
     const State& state = simulation.state;
     double deepest = 0.0;
     std::string who;
-    for_each_loaded_sphere_contact(simulation.network, [&](const Contact& c, const ContactGeometry& g) {
-        if (-g.gap <= deepest) return;
-        deepest = -g.gap;
+    for_each_loaded_sphere_contact(simulation.network, [&](const Contact& c) {
+        if (-c.gap <= deepest) return;
+        deepest = -c.gap;
         who = fmt::format(", now spheres {} and {} most", state.id[c.a], state.id[c.b]);
     });
-    for_each_loaded_wall_contact(simulation.network, [&](const Contact& c, const ContactGeometry& g) {
-        if (-g.gap <= deepest) return;
-        deepest = -g.gap;
+    for_each_loaded_wall_contact(simulation.network, [&](const Contact& c) {
+        if (-c.gap <= deepest) return;
+        deepest = -c.gap;
         who = fmt::format(", now sphere {} and the wall '{}' most", state.id[c.a], simulation.model.walls[c.b].name);
     });
     return who;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/system/terminal.hpp"
+#include "core/simulation/simulation.hpp"
 #include "core/step/time_step.hpp"
-#include "scenarios/simulation.hpp"
 
 #include <cstdint>
 #include <string>

@@ -6,7 +6,7 @@
 #include "app/system/terminal.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/text/input_error.hpp"
-#include "scenarios/build/checks.hpp"
+#include "scenarios/builder/checks.hpp"
 
 namespace talus
 {
@@ -59,7 +59,7 @@ RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbo
       verbosity_(verbosity), metrics_schedule_(opened.scene.time.metrics_interval),
       particle_schedule_(opened.scene.time.frame_interval), contact_schedule_(opened.scene.output.contact_interval),
       checkpoint_schedule_(opened.scene.checkpoint.interval),
-      watched_walls_(watched_walls(opened.scene, opened.simulation.model)), frames_(folder),
+      watched_walls_(watched_walls(opened.scene, opened.simulation.model)), frames_(folder, opened.output),
       progress_(verbosity, opened.simulation)
 {
     if (checkpoint)

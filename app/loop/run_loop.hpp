@@ -7,10 +7,10 @@
 #include "app/loop/run_statistics.hpp"
 #include "app/loop/schedule.hpp"
 #include "app/system/phase_clock.hpp"
+#include "core/simulation/simulation.hpp"
 #include "io/run/frames.hpp"
 #include "io/run/run_files.hpp"
 #include "scenarios/scene.hpp"
-#include "scenarios/simulation.hpp"
 
 #include <filesystem>
 #include <functional>

@@ -2,7 +2,7 @@
 #include "app/loop/run_report.hpp"
 
 #include "app/system/terminal.hpp"
-#include "scenarios/build/checks.hpp"
+#include "scenarios/builder/checks.hpp"
 
 #include <omp.h>
 
@@ -223,8 +223,8 @@ void print_error(const RunSummary& summary)
         e.energy_put_in == 0.0
             ? ""
             : fmt::format("; {:.4g} J put in by moving walls, loads or gravity along periodic axes", e.energy_put_in);
-    say("  {:<28} {:.4g} J lost, {:.2g} J gained that nothing put in, {:.2g} J by single contacts{}\n", "energy",
-        e.energy_lost, e.energy_gained, e.energy_gained_by_contacts, put_in);
+    say("  {:<28} {:.4g} J lost, {:.2g} J gained that nothing put in{}\n", "energy", e.energy_lost, e.energy_gained,
+        put_in);
     print_momentum("momentum", e.linear, "N s");
     if (e.angular.left_over > 0.0) print_momentum("angular momentum", e.angular, "N m s");
 }

@@ -49,7 +49,6 @@ void EnergyBalance::add(const StepReport& report, bool same_spheres)
         gained_ += std::max(0.0, rise);
     }
     total_energy_ = total;
-    gained_by_contacts_ += report.contact_gain;
     work_ = report.outcome.wall_work + report.bodies.load_work + report.bodies.gravity_work;
     put_in_ += work_;
     motion_energy_ = report.bodies.kinetic_energy + report.bodies.potential_energy;
@@ -109,7 +108,6 @@ ErrorSummary RunStatistics::error(const Model& model) const
     error.mean_overlap = overlap_count_ > 0.0 ? overlap_sum_ / overlap_count_ / model.mean_diameter : 0.0;
     error.energy_lost = energy_.lost();
     error.energy_gained = energy_.gained();
-    error.energy_gained_by_contacts = energy_.gained_by_contacts();
     error.energy_put_in = energy_.put_in();
     error.linear = momentum_.linear();
     if (!model.periodicity.any()) error.angular = momentum_.angular();

@@ -4,8 +4,8 @@
 #include "app/loop/companions.hpp"
 #include "app/loop/error_looks.hpp"
 #include "core/base/archive.hpp"
+#include "core/simulation/simulation.hpp"
 #include "io/run/summary.hpp"
-#include "scenarios/simulation.hpp"
 
 #include <array>
 #include <cstdint>
@@ -47,18 +47,14 @@ public:
     /// @param same_spheres whether those in the step are those of the step before
     void add(const StepReport& report, bool same_spheres);
 
-    double lost() const { return lost_; }                             ///< sum of the falls [J]
-    double gained() const { return gained_; }                         ///< sum of the rises [J]
-    double gained_by_contacts() const { return gained_by_contacts_; } ///< by single ones, estimated [J]
+    double lost() const { return lost_; }     ///< sum of the falls [J]
+    double gained() const { return gained_; } ///< sum of the rises [J]
     double put_in() const { return put_in_; } ///< work of moving walls, loads, and gravity along periodic axes [J]
 
-    void persist(Archive& archive)
-    {
-        archive(lost_, gained_, gained_by_contacts_, put_in_, work_, motion_energy_, total_energy_);
-    }
+    void persist(Archive& archive) { archive(lost_, gained_, put_in_, work_, motion_energy_, total_energy_); }
 
 private:
-    double lost_ = 0.0, gained_ = 0.0, gained_by_contacts_ = 0.0, put_in_ = 0.0;
+    double lost_ = 0.0, gained_ = 0.0, put_in_ = 0.0;
     double work_ = 0.0;                   ///< put in by the last step
     std::optional<double> motion_energy_; ///< kinetic + potential at the end of the last step
     std::optional<double> total_energy_;  ///< at the end of the step before it

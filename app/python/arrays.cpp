@@ -20,6 +20,7 @@ struct ContactRow {
     std::int32_t wall; ///< index, −1 between spheres
     double point[3], normal[3];
     double gap;
+    double compression; ///< κ of its spring [m]; −inf: it keeps none
     double force[3]; ///< on a [N]
 };
 
@@ -58,7 +59,7 @@ void write(const Vec3& vector, double* out)
 
 void register_records()
 {
-    PYBIND11_NUMPY_DTYPE(ContactRow, a, b, wall, point, normal, gap, force);
+    PYBIND11_NUMPY_DTYPE(ContactRow, a, b, wall, point, normal, gap, compression, force);
 }
 
 py::array copy_of(Session& session, const std::string& name)
@@ -110,20 +111,19 @@ py::array contacts_of(Session& session)
     const State& state = simulation.state;
     const double h = simulation.network.carried.impulse_step;
     std::vector<ContactRow> rows;
-    const auto add = [&](const Contact& c, const ContactGeometry& g, std::int64_t b, std::int32_t wall) {
+    const auto add = [&](const Contact& c, std::int64_t b, std::int32_t wall) {
         ContactRow& row = rows.emplace_back();
         row.a = state.id[c.a];
         row.b = b;
         row.wall = wall;
-        row.gap = g.gap;
+        row.gap = c.gap;
+        row.compression = c.compression;
         write(state.position[c.a] - state.radius(c.a) * c.normal, row.point);
         write(c.normal, row.normal);
         write(c.impulse / h, row.force);
     };
-    for_each_loaded_sphere_contact(
-        simulation.network, [&](const Contact& c, const ContactGeometry& g) { add(c, g, state.id[c.b], -1); });
-    for_each_loaded_wall_contact(
-        simulation.network, [&](const Contact& c, const ContactGeometry& g) { add(c, g, -1, c.b); });
+    for_each_loaded_sphere_contact(simulation.network, [&](const Contact& c) { add(c, state.id[c.b], -1); });
+    for_each_loaded_wall_contact(simulation.network, [&](const Contact& c) { add(c, -1, c.b); });
     return py::array_t<ContactRow>(static_cast<py::ssize_t>(rows.size()), rows.data());
 }
 

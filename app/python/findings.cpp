@@ -83,8 +83,8 @@ void Findings::look(const StepReport& report, Simulation& simulation)
     support_squares_ += forces[0] * forces[0];
     height_sum_ += packing_height(state, up_);
     restless_sum_ += energy_without_rattlers(state);
-    const auto note = [&](const Contact&, const ContactGeometry& geometry) {
-        if (geometry.gap < 0.0) overlaps_.add(-geometry.gap / units_.diameter);
+    const auto note = [&](const Contact& c) {
+        if (c.gap < 0.0) overlaps_.add(-c.gap / units_.diameter);
     };
     for_each_loaded_sphere_contact(simulation.network, note);
     for_each_loaded_wall_contact(simulation.network, note);

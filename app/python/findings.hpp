@@ -5,7 +5,7 @@
 #include "app/loop/schedule.hpp"
 #include "core/sensors/force_profile.hpp"
 #include "core/sensors/quietness.hpp"
-#include "scenarios/simulation.hpp"
+#include "core/simulation/simulation.hpp"
 
 #include <cstdint>
 #include <vector>

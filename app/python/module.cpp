@@ -7,7 +7,7 @@
 #include "app/system/own_files.hpp"
 #include "io/scene/key_table.hpp"
 #include "io/text/input_error.hpp"
-#include "scenarios/build/checks.hpp"
+#include "scenarios/builder/checks.hpp"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -125,7 +125,7 @@ void remove_spheres(Session& session, const std::vector<std::int64_t>& ids)
 
 void write_frame(Session& session, const fs::path& path)
 {
-    write_particles(session.now(), path);
+    write_particles(session.now(), session.opened().output, path);
 }
 
 py::dict check(const std::string& scene, const std::optional<std::string>& text, const std::vector<std::string>& set)

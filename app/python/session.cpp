@@ -5,7 +5,7 @@
 #include "io/run/checkpoint.hpp"
 #include "io/run/summary.hpp"
 #include "io/text/input_error.hpp"
-#include "scenarios/build/checks.hpp"
+#include "scenarios/builder/checks.hpp"
 
 #include <pybind11/pybind11.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/python/wall.hpp"
 
-#include "scenarios/build/checks.hpp"
+#include "scenarios/builder/checks.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -4,7 +4,7 @@
 #include "app/system/terminal.hpp"
 #include "core/world/closed_mesh.hpp"
 #include "io/text/input_error.hpp"
-#include "scenarios/build/checks.hpp"
+#include "scenarios/builder/checks.hpp"
 
 #include <cmath>
 
@@ -111,7 +111,7 @@ double memory_estimate(const Simulation& simulation, double spheres)
     const double state = sizeof(Vec3) + sizeof(Motion) + 2 * sizeof(std::int32_t) + sizeof(std::int64_t) + 1;
     const double listed = sizeof(Box) + 4 * sizeof(std::uint32_t);
     double candidate = sizeof(IndexPair) + sizeof(Vec3) + 1;
-    double contact = sizeof(Contact) + sizeof(ContactTerms) + sizeof(ContactGeometry);
+    double contact = (sizeof(ContactPack) + sizeof(RecordPack)) / pack_size;
     if (simulation.model.physics.rolling) {
         candidate += sizeof(Vec3);
         contact += sizeof(RollingRow);

@@ -9,7 +9,7 @@
 #include "core/solver/step_problem.hpp"
 #include "io/problem/fclib_problem.hpp"
 #include "io/run/run_files.hpp"
-#include "scenarios/build/checks.hpp"
+#include "scenarios/builder/checks.hpp"
 
 #include <omp.h>
 

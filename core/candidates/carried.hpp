@@ -3,60 +3,13 @@
 
 #include "core/base/archive.hpp"
 #include "core/base/vector.hpp"
+#include "core/law/touch_record.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 namespace talus
 {
-
-/// What is known of a contact from the steps before: whether it was loaded or an impact, and whether it has jammed.
-///
-/// Walls that move as told may ask for what rigid bodies cannot do: a press that closes on a sphere. Then no velocity
-/// obeys all contacts; those that overlap deeply yield (law.hpp), and one that comes deeper and deeper has
-/// *jammed*, until it overlaps less. Nothing hangs on that but what is reported.
-class TouchRecord
-{
-public:
-    /// In the step before it had an impulse, other than that of an impact.
-    bool is_loaded() const { return last() == 1 || was_open(); }
-    /// In the step before it closed a gap.
-    bool was_open() const { return last() == 3; }
-    /// In the step before it was an impact.
-    bool was_impact() const { return last() == 2; }
-    bool is_jammed() const { return pressed() >= newly_jammed; }
-    /// In the step before, it came to be so.
-    bool is_newly_jammed() const { return pressed() == newly_jammed; }
-
-    void note_load(bool loaded) { set(loaded, pressed()); }
-    void note_impact() { set(2, pressed()); }
-    void note_closing() { set(3, pressed()); }
-    /// A step in which it is shallow.
-    void note_hold() { set(last(), 0); }
-    /// A step in which it is pressed. @param deepens it bears a load, and comes deeper; @param is_deep too deep to wait
-    void note_yield(bool deepens, bool is_deep)
-    {
-        const int steps = std::max(0, pressed() + (deepens ? 1 : -1));
-        if (is_jammed())
-            note_known();
-        else
-            set(last(), deepens && is_deep && steps > 1 ? newly_jammed : steps);
-    }
-    /// Its press is known: it is not reported again.
-    void note_known() { set(last(), newly_jammed + 1); }
-
-private:
-    static constexpr int newly_jammed = 60; ///< a blade grips grains for half as many steps, and lets them go
-
-    std::uint8_t state_ = 0;
-
-    /// What it was in the step before: 0 not loaded, 1 loaded, 2 an impact, 3 closing a gap.
-    int last() const { return state_ & 3; }
-    /// How many times more than not it has come deeper; from newly_jammed on it has jammed.
-    int pressed() const { return state_ >> 2; }
-    void set(int last, int pressed) { state_ = static_cast<std::uint8_t>(4 * pressed + last); }
-};
 
 /// What a contact hands on from one step to the next; zeros where nothing is.
 struct alignas(32) CarriedContact {

@@ -58,12 +58,9 @@ ContactSurvey assemble_wall_contacts(ContactNetwork& network, std::size_t tile, 
         list.wall_pairs.begin() + list.wall_pairs_of_tile[tile + 1]};
     for_each_meeting_pair(pairs, detection, [&](std::span<const WallMeeting> meetings) {
         if (walls[meetings.front().pair->wall].is_piston()) return;
-        detection.lay(meetings, [&](const WallTouch& touch, const WallMeeting&) {
-            assembly.add(
-                touch, model.materials.between(state.material[touch.sphere], model.walls[touch.wall].material));
-        });
+        detection.lay(meetings, [&](const WallTouch& touch, const WallMeeting&) { assembly.add(touch); });
     });
-    return assembly.finish();
+    return assembly.make();
 }
 
 /// The contacts with all pistons, in the order of the wall pairs.
@@ -80,49 +77,13 @@ ContactSurvey assemble_piston_contacts(ContactNetwork& network, const State& sta
             const Vec3 place = detection.place(touch.sphere) - state.radius(touch.sphere) * touch.normal;
             network.contacts.piston_arms.push_back(
                 place - wall.image_of(static_cast<std::size_t>(meeting.at.patch)) - center);
-            assembly.add(touch, model.materials.between(state.material[touch.sphere], wall.wall().material));
+            assembly.add(touch);
         });
     });
-    return assembly.finish();
+    return assembly.make();
 }
 
 } // namespace
-
-ContactSurvey& ContactSurvey::operator+=(const ContactSurvey& other)
-{
-    count += other.count;
-    impacts += other.impacts;
-    overlapping += other.overlapping;
-    worst_strain = std::max(worst_strain, other.worst_strain);
-    worst_overlap = std::max(worst_overlap, other.worst_overlap);
-    overlap_sum += other.overlap_sum;
-    stored_energy += other.stored_energy;
-    push_out_energy += other.push_out_energy;
-    return *this;
-}
-
-void ContactSurvey::then(const ContactSurvey& next)
-{
-    const ContactSurvey before = *this;
-    *this = next;
-    worst_overlap = std::max(worst_overlap, before.worst_overlap);
-    stored_energy = before.stored_energy;
-    push_out_energy += before.push_out_energy;
-}
-
-LawOfStep law_of_step(const Model& model, const StepLength& step)
-{
-    const double by_rounding = touching_gap * model.min_diameter / step.whole;
-    const double slowest = model.solver.restitution_threshold * model.gravity.norm() * step.whole;
-    return {.h = step.h(),
-        .threshold_speed = slowest + by_rounding,
-        .elastic_speed = slowest > 0.0 ? slowest : 12.0 * upsilon * model.solver.push_out_speed,
-        .rigid = model.solver.stabilisation == Stabilisation::projected,
-        .min_sweeps = static_cast<double>(model.solver.min_sweeps),
-        .push_out_speed = model.solver.push_out_speed,
-        .parts = static_cast<double>(step.parts),
-        .min_diameter = model.min_diameter};
-}
 
 ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, const Model& model,
     const StepLength& length, const std::vector<PlacedWall>& walls)

@@ -6,15 +6,13 @@
 #include "core/world/model.hpp"
 #include "core/world/placed_wall.hpp"
 #include "core/world/state.hpp"
+#include "core/world/step_length.hpp"
 
 namespace talus
 {
 
-/// What the laws of all contacts of a step share.
-LawOfStep law_of_step(const Model& model, const StepLength& step);
-
 /// Turns the candidates that touch, or will within this step and a half, into the contacts of this step's problem:
-/// normal, law (packs/law.hpp), effective masses, and the impulse carried over, put back into the new tangent plane
+/// normal, law (core/law), effective masses, and the impulse carried over, put back into the new tangent plane
 /// and cone. Reads v⁽⁰⁾: gravity has not been added yet. Tiles in parallel, pistons after them.
 /// @param walls as they stand now, with their velocity over the step
 ContactSurvey assemble_contacts(ContactNetwork& network, const State& state, const Model& model, const StepLength& step,

@@ -30,7 +30,7 @@ public:
     void note_loads()
     {
         for (const std::size_t k : contacts_.struck()) {
-            const double load = contacts_.impulse(k).dot(contacts_.normal(k));
+            const double load = contacts_.normal_impulse(k);
             impacts_[contacts_.a(k)].note_load(load);
             impacts_[contacts_.b(k)].note_load(load);
         }
@@ -45,8 +45,8 @@ public:
             const double u_n = contacts_.normal(k).dot(state_.motion[contacts_.a(k)].velocity - velocity_of_other(k));
             if (!settle_one(k, u_n, step)) continue;
             const std::int32_t a = contacts_.a(k);
-            ratio = std::max(ratio, mass_ratio(a, with_walls_ ? 0.0 : state_.motion[contacts_.b(k)].inverse_mass));
-            if (!with_walls_) ratio = std::max(ratio, mass_ratio(contacts_.b(k), state_.motion[a].inverse_mass));
+            ratio = std::max(ratio, ratio_at(a, with_walls_ ? 0.0 : state_.motion[contacts_.b(k)].inverse_mass));
+            if (!with_walls_) ratio = std::max(ratio, ratio_at(contacts_.b(k), state_.motion[a].inverse_mass));
         }
         return ratio;
     }
@@ -57,13 +57,10 @@ private:
     std::vector<SphereImpacts>& impacts_;
     const State& state_;
 
-    /// Of what strikes a sphere, to the sphere's; beyond `most_impact_ratio` that of what is heavier on both sides of
-    /// it.
-    double mass_ratio(std::int32_t sphere, double inverse_mass_of_other) const
+    /// Of what strikes a sphere, to the sphere's.
+    double ratio_at(std::int32_t sphere, double inverse_mass_of_other) const
     {
-        const double mass = impacts_[sphere].mass, inverse_mass = state_.motion[sphere].inverse_mass;
-        if (mass * inverse_mass <= most_impact_ratio) return mass * inverse_mass;
-        return inverse_mass / (1.0 / mass + inverse_mass_of_other);
+        return impact_ratio(impacts_[sphere].mass, state_.motion[sphere].inverse_mass, inverse_mass_of_other);
     }
 
     /// As bits.
@@ -80,25 +77,22 @@ private:
         return lanes & contacts_.record(p).in_problem;
     }
 
-    /// Returns whether it bears an impact.
+    /// Returns whether it bears a load, and an impact with it.
     bool settle_one(std::size_t k, double u_n, const LawOfStep& step)
     {
-        const ContactGeometry own = contacts_.geometry(k);
-        if (own.kind == ContactKind::impact) return false;
+        if (contacts_.kind(k) == ContactKind::impact) return false;
+        const Contact own = contacts_.contact(k);
         const SphereImpacts &a = impacts_[contacts_.a(k)], &b = with_walls_ ? a : impacts_[contacts_.b(k)];
-        const double impact = std::max(a.size, b.size), carried = contacts_.impulse(k).dot(contacts_.normal(k));
-        const double load = step.parts * carried;
-        const bool is_loaded = load >= load_share * impact, was_impact = own.touch.was_impact();
-        const bool parts = was_impact && u_n > touching_gap * step.min_diameter / step.h; // but for rounding
-        // What impacts press on beside them is no load that a contact may count on, but what its spheres bore.
-        const double hands_on = std::max({carried, a.load, b.load});
-        if (!is_loaded && !was_impact)
-            contacts_.set_law(k, ContactKind::deferred, deferred_target(own.gap, u_n, step), -INFINITY, 0.0);
-        const bool bears = parts || (is_loaded && load < light_share * impact);
-        if (bears)
-            contacts_.set_law(k, ContactKind::bearing, bearing_target(own.gap, u_n, step),
-                static_cast<float>(borne_compression<double>(own.compression, u_n, step)), hands_on);
-        return bears && is_loaded;
+        const auto law = beside_impact({.gap = own.gap,
+                                           .u_n = u_n,
+                                           .compression = own.compression,
+                                           .impulse = own.normal_impulse(),
+                                           .was_impact = own.touch.last() == TouchRecord::impact,
+                                           .impact = std::max(a.size, b.size),
+                                           .pressed = std::max(a.load, b.load)},
+            step);
+        if (law) contacts_.set_law(k, *law);
+        return law && law->bears;
     }
 };
 

@@ -2,15 +2,12 @@
 #pragma once
 
 #include "core/contacts/contact_network.hpp"
-#include "core/packs/law.hpp"
+#include "core/law/impact.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
 
 namespace talus
 {
-
-/// Of what strikes, to what bears it: up to this, columns of what bears are solved to their end.
-inline constexpr double most_impact_ratio = 1100.0;
 
 /// Gives the contacts of spheres that have impacts the law that they have beside these, METHOD (4): those without a
 /// load are deferred to the next step, those with one bear.

@@ -12,26 +12,6 @@ namespace talus
 namespace
 {
 
-/// What this step adds to the record of a deep contact. @param u its velocity after the step [m/s]
-TouchRecord noted(const TileContacts& contacts, std::size_t k, const LawOfStep& law, const Vec3& u)
-{
-    const ContactGeometry own = contacts.geometry(k);
-    const double along = contacts.impulse(k).dot(contacts.normal(k)), overlap = -own.gap / law.min_diameter;
-    TouchRecord touch = own.touch;
-    if (along > 0.0 && own.kind == ContactKind::impact)
-        touch.note_impact();
-    else
-        touch.note_load(along > 0.0 || own.kind == ContactKind::yielding);
-    const double pressed = law.rigid ? rigid_yield_overlap : pressed_overlap;
-    if (overlap <= pressed && !(touch.is_jammed() && overlap > jammed_overlap)) {
-        touch.note_hold();
-        return touch;
-    }
-    const bool deepens = along > 0.0 && u.dot(contacts.normal(k)) < 0.0;
-    touch.note_yield(deepens, overlap > jamming_overlap);
-    return touch;
-}
-
 /// What contacts hand on. @param velocity_of_b what this says of contact k, after the step [m/s]
 template <class VelocityOfB>
 ContactOutcome carry(TileContacts& contacts, CarriedImpulses& carried, const State& state, const LawOfStep& law,
@@ -45,9 +25,10 @@ ContactOutcome carry(TileContacts& contacts, CarriedImpulses& carried, const Sta
         for (; deep != 0; deep &= deep - 1) {
             const std::size_t k = pack_size * p + static_cast<std::size_t>(std::countr_zero(deep));
             const Vec3 u = state.motion[contacts.a(k)].velocity - velocity_of_b(k); // solved or not
-            const TouchRecord touch = noted(contacts, k, law, u);
+            const TouchRecord touch = noted(contacts.touch(k), contacts.kind(k), contacts.normal_impulse(k) > 0.0,
+                -contacts.gap(k) / law.min_diameter, u.dot(contacts.normal(k)), law);
             contacts.set_touch(k, touch);
-            carried.contact[contacts.geometry(k).slot].touch = touch;
+            carried.contact[contacts.slot(k)].touch = touch;
             if (touch.is_newly_jammed()) ++outcome.newly_jammed;
         }
     }
@@ -59,8 +40,8 @@ ContactOutcome carry(TileContacts& contacts, CarriedImpulses& carried, const Sta
     if (contacts.has_rolling())
         for (std::size_t k = 0; k < pack_size * contacts.packs(); ++k)
             if (contacts.a(k) >= 0)
-                carried.rolling_impulse[contacts.geometry(k).slot] =
-                    contacts.geometry(k).hands_on == 0.0F ? Vec3::Zero().eval() : contacts.rolling_impulse(k);
+                carried.rolling_impulse[contacts.slot(k)] =
+                    contacts.hands_nothing_on(k) ? Vec3::Zero().eval() : contacts.rolling_impulse(k);
     return outcome;
 }
 

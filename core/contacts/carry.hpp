@@ -5,6 +5,7 @@
 #include "core/contacts/loads.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
+#include "core/world/step_length.hpp"
 
 namespace talus
 {

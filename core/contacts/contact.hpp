@@ -2,34 +2,36 @@
 #pragma once
 
 #include "core/base/vector.hpp"
-#include "core/candidates/carried.hpp"
-#include "core/packs/contact_pack.hpp"
+#include "core/law/touch_record.hpp"
 
-#include <cmath>
 #include <cstdint>
 
 namespace talus
 {
 
-/// One contact. A sphere–sphere contact joins spheres a and b; in a sphere–wall contact b is the wall's index, and the
-/// wall has no motion.
+/// One contact of a step, taken out of its packs. A sphere–sphere contact joins spheres a and b; in a sphere–wall
+/// contact b is the wall's index.
 struct Contact {
     std::int32_t a = 0;
     std::int32_t b = 0;
     Vec3 normal = Vec3::UnitZ(); ///< n, unit, from b to a
-    double target = 0.0;         ///< q_n [m/s]: the law is u_n + Σ_n λ_n ≥ q_n
     Vec3 impulse = Vec3::Zero(); ///< λ [N s] on a: normal part λ_n n with λ_n ≥ 0, the rest tangential
-};
 
-/// The constants of a contact's local solve.
-struct ContactTerms {
-    double arm_scale = 1.0;  ///< s = |x_a − x_b| / (r_a + r_b); 1 at walls: lever arms add up to the centre distance
-    double friction = 0.0;   ///< μ
-    double compliance = 0.0; ///< Σ_n [1/kg]
-    double parting = infinity;     ///< u_n that it asks for at most [m/s]
-    double normal_mass = 0.0;      ///< 1 / (W + Σ_n) [kg], W the inverse mass sum
-    double tangent_mass = 0.0;     ///< 1 / (W (1 + 5/2 s²)) [kg]; without rotation 1/W
+    ContactKind kind = ContactKind::open; ///< of the law that it follows
+    double target = 0.0;                  ///< q_n [m/s]
+    double compliance = 0.0;              ///< Σ_n [1/kg]
+    double parting = infinity;            ///< u_n that it asks for at most [m/s]
+    double friction = 0.0;                ///< μ
+    double arm_scale = 1.0;        ///< s = |x_a − x_b| / (r_a + r_b); 1 at walls: lever arms add up to the distance
     double inverse_mass_sum = 0.0; ///< W = 1/m_a + 1/m_b [1/kg]
+
+    double gap = 0.0;         ///< g at the beginning of the step [m]; < 0 is overlap
+    double wall_level = 0.0;  ///< n·x at which the gap to the wall is zero after the step [m]; at walls
+    double compression = 0.0; ///< κ: what of the overlap a load has pressed [m]; −∞: it will keep none
+    TouchRecord touch = {};   ///< what is known from the steps before; after carry_impulses with this one
+    std::uint32_t slot = 0;   ///< where it is kept what it carries
+
+    double normal_impulse() const { return impulse.dot(normal); }
 };
 
 /// The rolling row of a contact; only where a scene has rolling resistance.
@@ -44,21 +46,6 @@ struct WallRow {
     Vec3 velocity = Vec3::Zero(); ///< of its material at x − r n [m/s]
     Vec3 spin = Vec3::Zero();     ///< [rad/s]
     double gain = 0.0;            ///< by how much its velocity along n has grown since the step before [m/s]
-};
-
-/// What one step knows of a contact besides its solve.
-struct ContactGeometry {
-    double gap = 0.0;        ///< g at the beginning of the step [m]; < 0 is overlap
-    double wall_level = 0.0; ///< n·x at which the gap to the wall is zero after the step [m]; unused between spheres
-    std::uint32_t slot = 0;  ///< where its impulse is carried
-    ContactKind kind = ContactKind::open;
-    TouchRecord touch = {};    ///< what is known from the steps before; after carry_impulses with this one
-    float compression = 0.0F;  ///< κ: what of the overlap a load has pressed [m]; −∞: it will keep none
-    float held = 0.0F;         ///< what its spring held before the step, as the square of a length [m²]
-    float spring = 0.0F;       ///< Σ_n of its spring, also where it is rigid in this step [1/kg]
-    float restitution = 0.0F;  ///< e
-    float hands_on = INFINITY; ///< normal impulse at most [N s]
-    float push = 0.0F;         ///< what it may put in by pushing out, by its impulse [m/s]
 };
 
 } // namespace talus

@@ -15,9 +15,8 @@ namespace talus
 /// What a thread needs to assemble contacts.
 struct AssemblyRoom {
     PackFiller filler;
-    ContactPack contact = {};
-    TouchPack touch = {};
-    std::vector<std::uint32_t> near; ///< candidates of a tile
+    std::vector<std::uint32_t> near; ///< candidates of a tile between spheres …
+    std::vector<TouchPack> touches;  ///< … and what was found of its contacts with walls, by pack
 };
 
 /// What a sphere has that has an impact in this step. Tiles that share it may note it at once.

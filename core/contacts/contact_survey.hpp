@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/packs/touch_pack.hpp"
+
 #include <cstddef>
 
 namespace talus
@@ -18,6 +20,8 @@ struct ContactSurvey {
     double push_out_energy = 0.0; ///< … of which pushing out has put in so much in this step [J]
 
     double mean_overlap() const { return overlapping ? overlap_sum / static_cast<double>(overlapping) : 0.0; } ///< [m]
+    /// Those of a tile.
+    void add(const TouchSums& sums);
     /// The contacts of another tile of the same step.
     ContactSurvey& operator+=(const ContactSurvey& other);
     /// The next sub-step: the worst of all, the contacts of the last, the energy at the beginning.

@@ -11,11 +11,11 @@ std::vector<SphereLoad> sphere_loads(const ContactNetwork& network, std::size_t 
         loads[sphere].impulse += impulse;
         ++loads[sphere].contacts;
     };
-    for_each_loaded_sphere_contact(network, [&](const Contact& c, const ContactGeometry&) {
+    for_each_loaded_sphere_contact(network, [&](const Contact& c) {
         add(c.a, c.impulse);
         add(c.b, -c.impulse);
     });
-    for_each_loaded_wall_contact(network, [&](const Contact& c, const ContactGeometry&) { add(c.a, c.impulse); });
+    for_each_loaded_wall_contact(network, [&](const Contact& c) { add(c.a, c.impulse); });
     return loads;
 }
 

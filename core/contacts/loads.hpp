@@ -10,11 +10,11 @@
 namespace talus
 {
 
-/// Calls use(contact, geometry) for each of these contacts of the last step that has an impulse.
+/// Calls use(contact) for each of these contacts of the last step that has an impulse.
 template <class Use> void for_each_loaded(const TileContacts& contacts, Use&& use)
 {
     for (const std::size_t k : contacts.indices())
-        if (!contacts.impulse(k).isZero(0.0)) use(contacts.contact(k), contacts.geometry(k));
+        if (!contacts.impulse(k).isZero(0.0)) use(contacts.contact(k));
 }
 
 /// The loaded contacts between spheres. Those who need the branch from b to a take (r_a + r_b + gap) n, which is right

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contacts/sphere_contacts.hpp"
 
-#include "core/contacts/rolling_row.hpp"
+#include "core/contacts/rolling_rows.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -68,48 +68,21 @@ void SphereAssembly::place(const Tile& tile, const SphereNumbers& spheres, TileC
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t slot = room.near[i];
         const auto [a, b] = tile.pairs[slot];
-        contacts.place_pair(room.filler.place(a, b), a, b, slot);
+        contacts.place(room.filler.place(a, b), a, b, slot);
     }
 }
 
 ContactSurvey SphereAssembly::make(const Tile& tile, const SphereNumbers& spheres, TileContacts& contacts)
 {
-    ContactSurvey survey;
     TouchSums sums;
     for (std::size_t p = 0; p < contacts.packs(); ++p) {
-        ContactPack& pack = contacts.pack(p);
-        RecordPack& record = contacts.record(p);
-        const PackImpacts impacts = kernel_.touch_spheres(pack, record, sums, spheres, step_);
-        if (contacts.has_rolling()) make_rolling(tile, contacts, p);
-        survey.count += static_cast<std::size_t>(std::popcount(record.in_problem));
-        survey.impacts += static_cast<std::size_t>(std::popcount(impacts.lanes));
-        note_impacts(pack, impacts, state_.motion, network_.contacts.impacts);
+        const PackImpacts impacts = kernel_.touch_spheres(contacts.pack(p), contacts.record(p), sums, spheres, step_);
+        if (contacts.has_rolling()) make_rolling_rows(contacts, p, false, tile.carried.rolling_impulse, state_, model_);
+        note_impacts(contacts.pack(p), impacts, state_.motion, network_.contacts.impacts);
     }
-    for (int lane = 0; lane < pack_size; ++lane) {
-        survey.overlapping += static_cast<std::size_t>(sums.overlapping[lane]);
-        survey.worst_strain = std::max(survey.worst_strain, sums.worst_strain[lane]);
-        survey.overlap_sum += sums.overlap[lane];
-        survey.worst_overlap = std::max(survey.worst_overlap, sums.worst_overlap[lane]);
-        survey.stored_energy += sums.stored_energy[lane];
-        survey.push_out_energy += sums.push_out_energy[lane];
-    }
+    ContactSurvey survey;
+    survey.add(sums);
     return survey;
-}
-
-void SphereAssembly::make_rolling(const Tile& tile, TileContacts& contacts, std::size_t p) const
-{
-    for (std::size_t lane = 0; lane < pack_size; ++lane) {
-        const std::size_t k = pack_size * p + lane;
-        if (!contacts.record(p).holds(lane)) {
-            contacts.set_rolling(k, {});
-            continue;
-        }
-        const Motion &a = state_.motion[contacts.a(k)], &b = state_.motion[contacts.b(k)];
-        const double radius = a.radius * b.radius / (a.radius + b.radius);
-        const auto& law = model_.materials.between(state_.material[contacts.a(k)], state_.material[contacts.b(k)]);
-        contacts.set_rolling(k, rolling_row(contacts, k, law, radius, inverse_inertia(a) + inverse_inertia(b),
-                                    tile.carried.rolling_impulse[contacts.record(p).slot[lane]]));
-    }
 }
 
 } // namespace talus

@@ -29,7 +29,6 @@ private:
 
     void place(const Tile& tile, const SphereNumbers& spheres, TileContacts& contacts);
     ContactSurvey make(const Tile& tile, const SphereNumbers& spheres, TileContacts& contacts);
-    void make_rolling(const Tile& tile, TileContacts& contacts, std::size_t p) const;
 };
 
 } // namespace talus

@@ -52,68 +52,18 @@ std::size_t TileContacts::append()
     return k;
 }
 
-void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms& terms, const ContactGeometry& own)
-{
-    set(k, contact, terms);
-    RecordPack& record = record_at(k);
-    const std::size_t lane = k % pack_size;
-    const auto bit = static_cast<std::uint8_t>(1U << lane);
-    record.gap[lane] = own.gap;
-    record.wall_level[lane] = own.wall_level;
-    record.compression[lane] = own.compression;
-    record.held[lane] = own.held;
-    record.spring[lane] = own.spring;
-    record.restitution[lane] = own.restitution;
-    record.hands_on[lane] = own.hands_on;
-    record.push[lane] = own.push;
-    record.slot[lane] = own.slot;
-    record.kind[lane] = own.kind;
-    set_touch(k, own.touch);
-    record.in_problem |= bit;
-}
-
-void TileContacts::set(std::size_t k, const Contact& contact, const ContactTerms& terms)
+void TileContacts::set_law(std::size_t k, const BesideImpact& law)
 {
     ContactPack& pack = packs_[k / pack_size];
+    RecordPack& record = records_[k / pack_size];
     const std::size_t lane = k % pack_size;
-    pack.a[lane] = contact.a;
-    pack.b[lane] = contact.b;
-    put(pack.normal, lane, contact.normal);
-    put(pack.impulse, lane, contact.impulse);
-    pack.target[lane] = contact.target;
-    pack.arm_scale[lane] = terms.arm_scale;
-    pack.friction[lane] = terms.friction;
-    pack.parting[lane] = terms.parting;
-    pack.normal_mass[lane] = terms.normal_mass;
-    pack.tangent_mass[lane] = terms.tangent_mass;
-    RecordPack& record = record_at(k);
-    record.inverse_mass_sum[lane] = terms.inverse_mass_sum;
-    record.compliance[lane] = terms.compliance;
-}
-
-void TileContacts::copy(
-    std::size_t k, const ContactPack& from, const TouchPack& touch, std::size_t lane, const ContactGeometry& own)
-{
-    const Contact contact{
-        from.a[lane], from.b[lane], get(from.normal, lane), from.target[lane], get(from.impulse, lane)};
-    set(k, contact,
-        {from.arm_scale[lane], from.friction[lane], touch.compliance[lane], from.parting[lane], from.normal_mass[lane],
-            from.tangent_mass[lane], touch.inverse_mass_sum[lane]},
-        own);
-}
-
-void TileContacts::set_law(std::size_t k, ContactKind kind, double target, float compression, double hands_on)
-{
-    ContactPack& pack = packs_[k / pack_size];
-    RecordPack& record = record_at(k);
-    const std::size_t lane = k % pack_size;
-    pack.target[lane] = target;
+    pack.target[lane] = law.target;
     record.compliance[lane] = 0.0;
     pack.parting[lane] = infinity;
     pack.normal_mass[lane] = 1.0 / record.inverse_mass_sum[lane];
-    record.kind[lane] = kind;
-    record.compression[lane] = compression;
-    record.hands_on[lane] = static_cast<float>(hands_on);
+    record.kind[lane] = law.kind;
+    record.compression[lane] = static_cast<float>(law.compression);
+    record.hands_on[lane] = static_cast<float>(law.hands_on);
     record.push[lane] = 0.0F;
 }
 
@@ -141,25 +91,24 @@ PackSpan TileContacts::span()
 Contact TileContacts::contact(std::size_t k) const
 {
     const ContactPack& pack = packs_[k / pack_size];
-    return {a(k), b(k), normal(k), pack.target[k % pack_size], impulse(k)};
-}
-
-ContactTerms TileContacts::terms(std::size_t k) const
-{
-    const ContactPack& pack = packs_[k / pack_size];
-    const std::size_t lane = k % pack_size;
-    const RecordPack& record = records_[k / pack_size];
-    return {pack.arm_scale[lane], pack.friction[lane], record.compliance[lane], pack.parting[lane],
-        pack.normal_mass[lane], pack.tangent_mass[lane], record.inverse_mass_sum[lane]};
-}
-
-ContactGeometry TileContacts::geometry(std::size_t k) const
-{
     const RecordPack& record = records_[k / pack_size];
     const std::size_t lane = k % pack_size;
-    return {record.gap[lane], record.wall_level[lane], record.slot[lane], record.kind[lane], touch(k),
-        record.compression[lane], record.held[lane], record.spring[lane], record.restitution[lane],
-        record.hands_on[lane], record.push[lane]};
+    return {.a = pack.a[lane],
+        .b = pack.b[lane],
+        .normal = normal(k),
+        .impulse = impulse(k),
+        .kind = record.kind[lane],
+        .target = pack.target[lane],
+        .compliance = record.compliance[lane],
+        .parting = pack.parting[lane],
+        .friction = pack.friction[lane],
+        .arm_scale = pack.arm_scale[lane],
+        .inverse_mass_sum = record.inverse_mass_sum[lane],
+        .gap = record.gap[lane],
+        .wall_level = record.wall_level[lane],
+        .compression = record.compression[lane],
+        .touch = touch(k),
+        .slot = record.slot[lane]};
 }
 
 RollingRow TileContacts::rolling(std::size_t k) const

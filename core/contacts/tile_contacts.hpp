@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/contacts/contact.hpp"
+#include "core/law/impact.hpp"
 #include "core/packs/contact_pack.hpp"
-#include "core/packs/touch_pack.hpp"
 
 #include <bit>
 #include <iterator>
@@ -79,27 +79,20 @@ public:
     void append_pack();
     /// Adds a contact behind the last one, whatever spheres it shares: for contacts that are not swept by packs.
     std::size_t append();
-    /// A contact of this step.
-    void set(std::size_t k, const Contact& contact, const ContactTerms& terms, const ContactGeometry& own);
-    /// Two spheres get lane k. The rest of it is not written: the whole pack is to be made.
-    void place_pair(std::size_t k, std::int32_t sphere_a, std::int32_t sphere_b, std::uint32_t slot)
+    /// A sphere, and another one or a wall, get lane k, which is to be made a contact.
+    void place(std::size_t k, std::int32_t sphere, std::int32_t other, std::uint32_t slot)
     {
-        packs_[k / pack_size].a[k % pack_size] = sphere_a;
-        packs_[k / pack_size].b[k % pack_size] = sphere_b;
+        packs_[k / pack_size].a[k % pack_size] = sphere;
+        packs_[k / pack_size].b[k % pack_size] = other;
         records_[k / pack_size].slot[k % pack_size] = slot;
     }
-    /// The same; what is known of it besides stays.
-    void set(std::size_t k, const Contact& contact, const ContactTerms& terms);
-    /// Contact k becomes what stands in a lane of another pack, and of what was found of it.
-    void copy(
-        std::size_t k, const ContactPack& from, const TouchPack& touch, std::size_t lane, const ContactGeometry& own);
-    /// Contact k gets another normal law, and hands on no more than this normal impulse [N s].
-    void set_law(std::size_t k, ContactKind kind, double target, float compression, double hands_on);
+    /// Contact k gets another normal law, since an impact is beside it.
+    void set_law(std::size_t k, const BesideImpact& law);
     void set_rolling(std::size_t k, const RollingRow& row);
     void set_wall(std::size_t k, const WallRow& row);
     void set_touch(std::size_t k, TouchRecord touch)
     {
-        record_at(k).touch[k % pack_size] = std::bit_cast<std::uint8_t>(touch);
+        records_[k / pack_size].touch[k % pack_size] = std::bit_cast<std::uint8_t>(touch);
     }
     void set_impulse(std::size_t k, const Vec3& impulse) { put(packs_[k / pack_size].impulse, k % pack_size, impulse); }
     void set_rolling_impulse(std::size_t k, const Vec3& impulse)
@@ -130,10 +123,12 @@ public:
     std::int32_t b(std::size_t k) const { return packs_[k / pack_size].b[k % pack_size]; }
     Vec3 normal(std::size_t k) const { return get(packs_[k / pack_size].normal, k % pack_size); }
     Vec3 impulse(std::size_t k) const { return get(packs_[k / pack_size].impulse, k % pack_size); }
-    double friction(std::size_t k) const { return packs_[k / pack_size].friction[k % pack_size]; }
+    double normal_impulse(std::size_t k) const { return impulse(k).dot(normal(k)); }
+    double gap(std::size_t k) const { return records_[k / pack_size].gap[k % pack_size]; }
+    double wall_level(std::size_t k) const { return records_[k / pack_size].wall_level[k % pack_size]; }
+    std::uint32_t slot(std::size_t k) const { return records_[k / pack_size].slot[k % pack_size]; }
+    bool hands_nothing_on(std::size_t k) const { return records_[k / pack_size].hands_on[k % pack_size] == 0.0F; }
     Contact contact(std::size_t k) const;
-    ContactTerms terms(std::size_t k) const;
-    ContactGeometry geometry(std::size_t k) const;
     TouchRecord touch(std::size_t k) const
     {
         return std::bit_cast<TouchRecord>(records_[k / pack_size].touch[k % pack_size]);
@@ -152,8 +147,6 @@ private:
     std::vector<WallPack> wall_;       ///< empty unless walls move, and between spheres
     std::vector<std::size_t> struck_;
     bool with_rolling_ = false, with_moving_walls_ = false, made_whole_ = false;
-
-    RecordPack& record_at(std::size_t k) { return records_[k / pack_size]; }
 
     static Vec3 get(const double (&rows)[3][pack_size], std::size_t lane)
     {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/multibody/constraint.hpp"
 
+#include "core/law/coulomb.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +13,14 @@ namespace
 
 void project_on_disk(Eigen::Ref<Eigen::VectorXd> part, double radius)
 {
-    const double length = part.norm();
-    if (length > radius) part *= radius / length; // so that a part of length zero is never divided by
+    Eigen::Vector2d vector = part;
+    cut_to_disk<double>(vector, radius);
+    part = vector;
+}
+
+double beyond_disk(const Eigen::Ref<const Eigen::VectorXd>& part, double radius)
+{
+    return talus::beyond_disk<double>(Eigen::Vector2d(part), radius);
 }
 
 } // namespace
@@ -46,10 +54,10 @@ double cone_violation(const Constraint& constraint, const Eigen::Ref<const Eigen
         break;
     }
     double worst = std::max(0.0, -impulse[0]);
-    worst = std::max(worst, impulse.segment<tangent_rows>(1).norm() - constraint.friction * impulse[0]);
+    worst = std::max(worst, beyond_disk(impulse.segment<tangent_rows>(1), constraint.friction * impulse[0]));
     if (constraint.rolls())
         worst = std::max(
-            worst, impulse.segment<rolling_rows>(1 + tangent_rows).norm() - constraint.rolling_reach * impulse[0]);
+            worst, beyond_disk(impulse.segment<rolling_rows>(1 + tangent_rows), constraint.rolling_reach * impulse[0]));
     return worst;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/law/contact_law.hpp"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -9,9 +11,6 @@ namespace talus
 
 /// Lanes of a pack: contacts that a wide register solves at once.
 inline constexpr int pack_size = 8;
-
-/// Law that a contact follows in this step: METHOD (4).
-enum class ContactKind : std::uint8_t { resting, open, impact, yielding, bearing, deferred };
 
 /// Eight contacts, no two of which share a sphere, so that their order does not matter: all that a sweep streams, lane
 /// beside lane, 104 B a contact. They are filled from lane 0 on; a lane that is empty has a = b = −1, and zeros. A lane

@@ -50,8 +50,9 @@ struct TouchKernel {
     /// A lane whose spheres do not touch is left out of the problem, and has nothing to hand on.
     PackImpacts (*touch_spheres)(ContactPack& contact, RecordPack& record, TouchSums& sums,
         const SphereNumbers& spheres, const StepConstants& step) = nullptr;
-    /// Makes contacts of touches that have been found.
-    void (*make_contacts)(ContactPack& contact, TouchPack& touch, const StepConstants& step) = nullptr;
+    /// Makes contacts of touches with walls that have been found: of all lanes that have a sphere.
+    PackImpacts (*touch_walls)(ContactPack& contact, RecordPack& record, TouchPack& touch, TouchSums& sums,
+        const StepConstants& step) = nullptr;
     /// Stores what the contacts of a pack between spheres hand on. Touch records of those that overlap by more than
     /// jammed_overlap stay as they are, and their lanes are returned, as bits. @param carried as in SphereNumbers
     unsigned (*hand_on)(const ContactPack& contact, RecordPack& record, const LawOfStep& law, double* carried,

@@ -5,11 +5,11 @@
 
 #include <utility>
 
-/// Numbers in registers of 2, 4 or 8, `width` of them, and vectors of such.
+/// Numbers in registers of 2, 4 or 8, `width` of them, and vectors of such; one by one for what is no kernel.
 ///
-/// Files that include this are compiled for an instruction set of their own. Therefore nothing that they use may be an
-/// inline function that another file could share: all are templates of the width, which belongs to one file only, and
-/// nothing of Eigen or of the standard library is called.
+/// Kernels are compiled for an instruction set of their own. Therefore nothing that they use may
+/// be an inline function that another file could share: all are templates of the width, which belongs to one file only,
+/// and nothing of Eigen or of the standard library is called.
 namespace talus::packs
 {
 
@@ -47,13 +47,6 @@ template <int width> [[gnu::always_inline]] inline void store(double* to, const 
 template <int width> [[gnu::always_inline]] inline void store(std::int64_t* to, const Flags<width>& flags)
 {
     *reinterpret_cast<typename Register<width>::StoredFlags*>(to) = flags;
-}
-
-template <int width> [[gnu::always_inline]] inline Numbers<width> root(const Numbers<width>& square)
-{
-    Numbers<width> numbers;
-    for (int lane = 0; lane < width; ++lane) numbers[lane] = __builtin_sqrt(square[lane]);
-    return numbers;
 }
 
 /// a + b, and what rounding has taken of it (Knuth).
@@ -96,6 +89,7 @@ template <int width>
 [[gnu::always_inline]] inline Numbers<width> fused(
     const Numbers<width>& a, const Numbers<width>& b, const Numbers<width>& c)
 {
+    if constexpr (width == 1) return Numbers<1>{__builtin_fma(a[0], b[0], c[0])};
 #if defined(__AVX512F__) && !defined(__clang__)
     if constexpr (width == 8) return __builtin_ia32_vfmaddpd512_mask(a, b, c, -1, 4);
 #endif
@@ -121,11 +115,6 @@ template <int width> [[gnu::always_inline]] inline std::int64_t united(const Fla
     else
         return united<4>(
             __builtin_shufflevector(flags, flags, 0, 1, 2, 3) | __builtin_shufflevector(flags, flags, 4, 5, 6, 7));
-}
-
-template <int width> [[gnu::always_inline]] inline bool any(const Flags<width>& flags)
-{
-    return united<width>(flags) != 0;
 }
 
 /// 0, step, 2 step, …
@@ -267,13 +256,17 @@ template <int width> [[gnu::always_inline]] inline void store_high_half(double* 
 template <int width, int count>
 [[gnu::always_inline]] inline void gather(Numbers<width> (&numbers)[count], const double* const* records)
 {
-    constexpr int half = width / 2;
+    if constexpr (width == 1) {
+        for (int k = 0; k < count; ++k) numbers[k][0] = records[0][k];
+    } else {
+        constexpr int half = width / 2;
 #pragma GCC unroll 8
-    for (int block = 0; block < count; block += half) {
+        for (int block = 0; block < count; block += half) {
 #pragma GCC unroll 4
-        for (int k = 0; k < half; ++k)
-            numbers[block + k] = load_halves<width>(records[k] + block, records[k + half] + block);
-        transpose_halves<width>(numbers + block);
+            for (int k = 0; k < half; ++k)
+                numbers[block + k] = load_halves<width>(records[k] + block, records[k + half] + block);
+            transpose_halves<width>(numbers + block);
+        }
     }
 }
 
@@ -281,14 +274,18 @@ template <int width, int count>
 template <int width, int count, bool full = false>
 [[gnu::always_inline]] inline void scatter(Numbers<width> (&numbers)[count], double* const* records)
 {
-    constexpr int half = width / 2;
+    if constexpr (width == 1) {
+        for (int k = 0; k < count; ++k) records[0][k] = numbers[k][0];
+    } else {
+        constexpr int half = width / 2;
 #pragma GCC unroll 8
-    for (int block = 0; block < count; block += half) {
-        transpose_halves<width>(numbers + block);
+        for (int block = 0; block < count; block += half) {
+            transpose_halves<width>(numbers + block);
 #pragma GCC unroll 4
-        for (int k = 0; k < half; ++k) {
-            if (full || records[k]) store_low_half<width>(records[k] + block, numbers[block + k]);
-            if (full || records[k + half]) store_high_half<width>(records[k + half] + block, numbers[block + k]);
+            for (int k = 0; k < half; ++k) {
+                if (full || records[k]) store_low_half<width>(records[k] + block, numbers[block + k]);
+                if (full || records[k + half]) store_high_half<width>(records[k + half] + block, numbers[block + k]);
+            }
         }
     }
 }

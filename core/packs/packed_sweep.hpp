@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/law/coulomb.hpp"
 #include "core/packs/kernels.hpp"
 #include "core/packs/numbers.hpp"
 
@@ -81,16 +82,6 @@ template <int width> struct Sums {
     }
 };
 
-/// Cuts vectors back to the disk of this radius.
-template <int width> [[gnu::always_inline]] inline void cut_to_disk(Vector<width>& vector, const Numbers<width>& radius)
-{
-    const Numbers<width> size_squared = vector.dot(vector);
-    const auto outside = size_squared > radius * radius;
-    if (!any<width>(outside)) return;
-    const Numbers<width> size = root<width>(size_squared), one = size_squared * 0.0 + 1.0;
-    vector = vector * (outside ? radius / size : one);
-}
-
 /// `width` contacts of a pack, from lane `first` on, and their spheres.
 template <int width, bool wall, class R, bool full> struct Contacts {
     static constexpr bool spins = R::spin;
@@ -104,6 +95,7 @@ template <int width, bool wall, class R, bool full> struct Contacts {
     Vector<width> normal;
     Numbers<width> arm_scale;
 
+    /// @param p the pack; @param lane of it, the first; @param spheres their motion
     [[gnu::always_inline]] Contacts(const PackSpan& packs, std::size_t p, double* spheres, int lane)
         : pack(packs.contact[p]), rolling(R::rolling ? packs.rolling + p : nullptr),
           walls(wall && R::moving_walls ? packs.wall + p : nullptr), motion(spheres), first(lane)
@@ -165,20 +157,27 @@ template <int width, bool wall, class R, bool full> struct Contacts {
         tangent_mass = relaxation * tangent_mass;
         Vector<width> tangent = impulse.plus(u, -tangent_mass);
         tangent = tangent.plus(normal, fused<width>(u_n, tangent_mass, -old_normal));
-        cut_to_disk<width>(tangent, load<width>(pack.friction + first) * new_normal);
+        cut_to_disk<Numbers<width>>(tangent, load<width>(pack.friction + first) * new_normal);
         return tangent.plus(normal, new_normal);
+    }
+
+    /// Of a relative to b, or to the wall [rad/s].
+    [[gnu::always_inline]] Vector<width> spin() const
+    {
+        Vector<width> spin = a.rim_velocity() * (1.0 / a.radius());
+        if constexpr (!wall) spin = spin - b.rim_velocity() * (1.0 / b.radius());
+        if constexpr (wall && R::moving_walls) spin = spin - Vector<width>::load(walls->spin, first);
+        return spin;
     }
 
     /// The rolling rows, METHOD (8). @param impulse of the contact as it stands
     [[gnu::always_inline]] Vector<width> solved_rolling(const Vector<width>& impulse, double relaxation) const
     {
-        Vector<width> spin = a.rim_velocity() * (1.0 / a.radius());
-        if constexpr (!wall) spin = spin - b.rim_velocity() * (1.0 / b.radius());
-        if constexpr (wall && R::moving_walls) spin = spin - Vector<width>::load(walls->spin, first);
+        const Vector<width> spin = this->spin();
         const Numbers<width> inertia = relaxation * load<width>(rolling->inertia + first);
         Vector<width> torque =
             Vector<width>::load(rolling->impulse, first) - (spin - normal * spin.dot(normal)) * inertia;
-        cut_to_disk<width>(torque, load<width>(rolling->reach + first) * impulse.dot(normal));
+        cut_to_disk<Numbers<width>>(torque, load<width>(rolling->reach + first) * impulse.dot(normal));
         return torque;
     }
 
@@ -231,6 +230,20 @@ template <int width, bool wall, class R, bool full> struct Contacts {
             const Vector<width> turn = Vector<width>::load(rolling->impulse, first);
             add_rolling(sums.size[group], turn);
             apply_rolling(turn);
+        }
+        put_back();
+    }
+
+    /// Impulses grow by this share of what they are: λ ← (1 + share) λ, v ← v + M⁻¹ Gᵀ Δλ.
+    [[gnu::always_inline]] void grow(const Numbers<width>& share)
+    {
+        const Vector<width> impulse = Vector<width>::load(pack.impulse, first), change = impulse * share;
+        (impulse + change).store(pack.impulse, first);
+        apply(change);
+        if constexpr (R::rolling) {
+            const Vector<width> turn = Vector<width>::load(rolling->impulse, first), turn_change = turn * share;
+            (turn + turn_change).store(rolling->impulse, first);
+            apply_rolling(turn_change);
         }
         put_back();
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/law/coulomb.hpp"
+#include "core/law/touch_record.hpp"
 #include "core/packs/kernels.hpp"
 #include "core/packs/numbers.hpp"
 #include "core/packs/packed_slots.hpp"
@@ -91,19 +93,18 @@ template <int width>
     const Vector<width> apart = across<width>(Balls<width>(sphere_a, balls), Balls<width>(sphere_b, balls), step);
     const Vector<width> velocity{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
     const Numbers<width> radii = a[7] + b[7], none = {}, one = none + 1.0;
-    const Numbers<width> square = apart.dot(apart), distance = root<width>(square);
+    const Numbers<width> square = apart.dot(apart), distance = root<Numbers<width>>(square);
 
     // A gap is laid where the spheres' free paths close it, or come nearest in this step.
     const Numbers<width> approach = -apart.dot(velocity), speed_squared = velocity.dot(velocity);
-    const Numbers<width> closes =
-        closing_time<Numbers<width>>(approach, speed_squared, square - radii * radii, root<width>);
+    const Numbers<width> closes = closing_time<Numbers<width>>(approach, speed_squared, square - radii * radii);
     const Numbers<width> nearest =
         smaller<Numbers<width>>(none + step.law.h, approach / (speed_squared > 0.0 ? speed_squared : one));
     const Flags<width> touching = touches<Numbers<width>>(distance - radii, step.law),
                        ahead = (!touching) & (approach > 0.0);
     const Numbers<width> instant = ahead ? smaller<Numbers<width>>(closes, nearest) : none;
     const Vector<width> then = apart.plus(velocity, instant);
-    const Numbers<width> distance_then = root<width>(then.dot(then));
+    const Numbers<width> distance_then = root<Numbers<width>>(then.dot(then));
     // Spheres with one centre are pushed apart along a fixed direction: any will do, but always the same.
     const Flags<width> separate = distance_then > 0.0;
     const Numbers<width> inverse = one / (separate ? distance_then : one), per_radii = one / radii;
@@ -129,15 +130,52 @@ template <int width>
 {
     const Numbers<width> along = carried.dot(normal), normal_impulse = larger<Numbers<width>>(Numbers<width>{}, along);
     Vector<width> tangent = carried.plus(normal, -along);
-    const Numbers<width> largest = friction * normal_impulse, square = tangent.dot(tangent);
-    const Flags<width> outside = square > largest * largest;
-    if (any<width>(outside)) {
-        const Numbers<width> one = square * 0.0 + 1.0;
-        tangent = tangent * (outside ? largest / root<width>(outside ? square : one) : one);
-    }
+    cut_to_disk<Numbers<width>>(tangent, friction * normal_impulse);
     const Vector<width> warm = tangent.plus(normal, normal_impulse);
     const Numbers<width> none = {};
     return {impact ? none : warm.x, impact ? none : warm.y, impact ? none : warm.z};
+}
+
+/// What the laws of these touches depend on. @param along the normal impulse that they carry
+template <int width>
+[[gnu::always_inline]] inline ContactEvent<Numbers<width>> event_of(
+    const TouchPack& touch, int first, const Numbers<width>& along, const StepConstants& step)
+{
+    using N = Numbers<width>;
+    const auto number = [&](const double* row) __attribute__((always_inline))
+    {
+        return load<width>(row + first);
+    };
+    const N w = number(touch.inverse_mass_sum), spring = spring_compliance<N>(number(touch.stiffness), w, step.law);
+    const Flags<width> pushed = load_flags<width>(touch.pushed + first);
+    return {number(touch.gap), number(touch.diameter), number(touch.reduced_radius), number(touch.u_n),
+        number(touch.u_n_before), number(touch.closes), w, number(touch.restitution), number(touch.stiffness),
+        pushed ? N{} : larger<N>(N{}, along) * step.law.parts,
+        taken_over<N>(number(touch.compression), along > 0.0, number(touch.gap), number(touch.u_n_before),
+            number(touch.restitution), spring, w, step.law),
+        load_flags<width>(touch.struck + first)};
+}
+
+/// What the springs of these touches hold, and what pushing out has put into them: nothing for those that keep none.
+/// What was not stored before is pushed in; what yields gives up of its spring, it does in this step.
+template <int width>
+[[gnu::always_inline]] inline void note_springs(TouchPack& touch, int first, const ContactEvent<Numbers<width>>& event,
+    const NormalLaw<Numbers<width>>& law, const Flags<width>& keeps, const Flags<width>& yields, const LawOfStep& step)
+{
+    using N = Numbers<width>;
+    const N none = {}, w = event.inverse_mass_sum, spring = spring_compliance<N>(event.stiffness, w, step);
+    const Flags<width> stored = keeps & (event.compression > none + touching_gap * step.min_diameter);
+    const N u_stored = stored ? event.u_n_before : none;
+    const N borne = yields ? 0.5 * step.h * smaller<N>(none, event.u_n_before) : none;
+    const N kappa = law.compression - borne, pressed = stored ? kappa - law.grown : none;
+    const N square = spring_square<N>(kappa, u_stored, spring, w, step);
+    const N square_before = spring_square<N>(pressed, u_stored, spring, w, step);
+    const N energy_of_one = energy_of_square<N>(none + 1.0, spring, w, step);
+    store<width>(touch.stored_energy + first, keeps ? energy_of_one * square : none);
+    store<width>(touch.push_out_energy + first, keeps ? energy_of_one * (square - square_before) : none);
+    store<width>(touch.held + first, keeps ? square_before : none);
+    store<width>(touch.spring + first, spring);
+    store<width>(touch.compression + first, law.compression);
 }
 
 /// The law of these touches, and the numbers of their contacts' solve: zeros for those that are out of reach.
@@ -148,24 +186,15 @@ template <int width>
     using N = Numbers<width>;
     using F = Flags<width>;
     const N none = {};
-    const auto number = [&](const double* row) __attribute__((always_inline))
-    {
-        return load<width>(row + first);
-    };
     const Vector<width> normal = Vector<width>::load(contact.normal, first);
     const Vector<width> carried = Vector<width>::load(touch.carried, first);
-    const N along = carried.dot(normal), w = number(touch.inverse_mass_sum), arm_scale = number(contact.arm_scale);
-    const N spring = spring_compliance<N>(number(touch.stiffness), w, step.law);
-    const F pushed = load_flags<width>(touch.pushed + first);
-    const ContactEvent<N> event{number(touch.gap), number(touch.diameter), number(touch.reduced_radius),
-        number(touch.u_n), number(touch.u_n_before), number(touch.closes), w, number(touch.restitution),
-        number(touch.stiffness), pushed ? none : larger<N>(none, along) * step.law.parts,
-        taken_over<N>(number(touch.compression), along > 0.0, number(touch.gap), number(touch.u_n_before),
-            number(touch.restitution), spring, w, step.law, root<width>),
-        load_flags<width>(touch.struck + first)};
-    const F strikes = is_impact<N>(event, step.law), impact = strikes & within_reach;
+    const ContactEvent<N> event = event_of<width>(touch, first, carried.dot(normal), step);
+    const N w = event.inverse_mass_sum, arm_scale = load<width>(contact.arm_scale + first);
+    const F strikes = is_impact<N>(event, step.law), impact = strikes & within_reach,
+            open = !touches<N>(event.gap, step.law);
+    const F strained = overstrained<N>(event, step.law), yields = strained & ~impact;
     const NormalLaw<N> law = normal_law<N>(event, impact, step.law);
-    const Vector<width> warm = warm_impulse<width>(carried, normal, number(contact.friction), impact);
+    const Vector<width> warm = warm_impulse<width>(carried, normal, load<width>(contact.friction + first), impact);
 
     const auto put = [&](double* row, const N& numbers) __attribute__((always_inline))
     {
@@ -182,33 +211,14 @@ template <int width>
     put(contact.normal_mass, turning * of_both);
     put(contact.tangent_mass, softer * of_both);
 
-    const N least = none + touching_gap * step.law.min_diameter;
-    const F keeps = within_reach & (law.compression > none), stored = keeps & (event.compression > least);
-    // What was not stored before is pushed in; what yields gives up of its spring, it does in this step.
-    const N u_stored = stored ? event.u_n_before : none;
-    const N borne = law.yields ? 0.5 * step.law.h * smaller<N>(none, event.u_n_before) : none;
-    const N kappa = law.compression - borne, pressed = stored ? kappa - law.grown : none;
-    const N square = spring_square<N>(kappa, u_stored, spring, w, step.law);
-    const N square_before = spring_square<N>(pressed, u_stored, spring, w, step.law);
-    const N energy_of_one = energy_of_square<N>(none + 1.0, spring, w, step.law);
-    put(touch.stored_energy, keeps ? energy_of_one * square : none);
-    put(touch.push_out_energy, keeps ? energy_of_one * (square - square_before) : none);
-    put(touch.spring, spring);
-    put(touch.held, keeps ? square_before : none);
+    note_springs<width>(touch, first, event, law, within_reach & (law.compression > none), yields, step.law);
     put(touch.push, law.push);
-    const N most = elastic_overlap<N>(event, step.law);
-    put(touch.strain, -event.gap > most ? -event.gap / most : none);
-    put(touch.impact_size, any<width>(impact) ? (impact ? impact_size<N>(event) : none) : none);
-    store<width>(touch.compression + first, law.compression);
-    const F open = event.gap > least;
-    const F yields = law.yields;
-    store<width>(touch.kind + first, impact ? F{} + 2 : (open ? F{} + 1 : (yields ? F{} + 3 : F{})));
-}
-
-template <int width> void make_contacts(ContactPack& contact, TouchPack& touch, const StepConstants& step)
-{
-    for (int first = 0; first < pack_size; first += width)
-        apply_law<width>(contact, touch, first, ~Flags<width>{}, step);
+    put(touch.strain, strained ? -event.gap / elastic_overlap<N>(event, step.law) : none);
+    put(touch.impact_size, any_of(impact) ? (impact ? impact_size<N>(event) : none) : none);
+    const auto kind = [](ContactKind which) { return F{} + static_cast<std::int64_t>(which); };
+    store<width>(
+        touch.kind + first, impact ? kind(ContactKind::impact)
+                                   : (open ? kind(ContactKind::open) : (yields ? kind(ContactKind::yielding) : F{})));
 }
 
 /// What the spheres' materials and slots say of these touches.
@@ -232,9 +242,9 @@ template <int width>
     const auto carried = CarriedRecords<width>::gather(slot, spheres.carried);
     carried.impulse.store(touch.carried, first);
     store<width>(touch.compression + first, carried.compression);
-    const Flags<width> last = carried.touch & std::int64_t{3}; // TouchRecord
-    store<width>(touch.struck + first, last == std::int64_t{2});
-    store<width>(touch.pushed + first, last == std::int64_t{3});
+    const Flags<width> last = carried.touch & std::int64_t{TouchRecord::last_bits};
+    store<width>(touch.struck + first, last == std::int64_t{TouchRecord::impact});
+    store<width>(touch.pushed + first, last == std::int64_t{TouchRecord::closing_a_gap});
     narrow<width>(record.touch + first, carried.touch);
 }
 
@@ -254,7 +264,13 @@ template <int width>
     add(sums.push_out_energy, load<width>(touch.push_out_energy + first));
     const Numbers<width> worst = load<width>(sums.worst_overlap + first);
     store<width>(sums.worst_overlap + first, larger<Numbers<width>>(worst, overlaps ? -gap : none));
-    store<width>(sums.overlapping + first, load_flags<width>(sums.overlapping + first) - overlaps);
+    const auto count = [&](std::int64_t * number, const Flags<width>& which) __attribute__((always_inline))
+    {
+        store<width>(number + first, load_flags<width>(number + first) - which);
+    };
+    count(sums.overlapping, overlaps);
+    count(sums.contacts, within_reach);
+    count(sums.impacts, within_reach & (kind == static_cast<std::int64_t>(ContactKind::impact)));
     const Numbers<width> strain = load<width>(touch.strain + first), before = load<width>(sums.worst_strain + first);
     store<width>(sums.worst_strain + first, larger<Numbers<width>>(before, within_reach ? strain : none));
 
@@ -266,10 +282,23 @@ template <int width>
     store_floats<width>(record.spring + first, load<width>(touch.spring + first));
     store_floats<width>(record.push + first, load<width>(touch.push + first));
     store_floats<width>(record.restitution + first, load<width>(touch.restitution + first));
-    store_floats<width>(record.hands_on + first, kind == std::int64_t{2} ? none : none + __builtin_inf());
+    store_floats<width>(record.hands_on + first,
+        kind == static_cast<std::int64_t>(ContactKind::impact) ? none : none + __builtin_inf());
     narrow<width>(reinterpret_cast<std::uint8_t*>(record.kind) + first, within_reach & kind);
     narrow<width>(record.touch + first, within_reach & widened<width>(record.touch + first));
     record.in_problem |= static_cast<std::uint8_t>(bits<width>(within_reach) << first);
+}
+
+/// Makes contacts of these touches, those within reach.
+template <int width>
+[[gnu::always_inline]] inline void make_contacts(ContactPack& contact, RecordPack& record, TouchPack& touch,
+    TouchSums& sums, PackImpacts& impacts, int first, const Flags<width>& within_reach, const StepConstants& step)
+{
+    apply_law<width>(contact, touch, first, within_reach, step);
+    take_down<width>(record, sums, touch, first, within_reach);
+    const Numbers<width> size = load<width>(touch.impact_size + first);
+    store<width>(impacts.size + first, size);
+    impacts.lanes |= bits<width>(size > 0.0) << first;
 }
 
 template <int width>
@@ -283,13 +312,35 @@ PackImpacts touch_spheres(
     for (int first = 0; first < pack_size; first += width) {
         recall<width>(contact, touch, record, first, spheres);
         const Flags<width> within_reach = detect<width>(contact, touch, first, spheres.balls, spheres.motion, step);
-        apply_law<width>(contact, touch, first, within_reach, step);
-        take_down<width>(record, sums, touch, first, within_reach);
-        const Numbers<width> size = load<width>(touch.impact_size + first);
-        store<width>(impacts.size + first, size);
-        impacts.lanes |= bits<width>(size > 0.0) << first;
+        make_contacts<width>(contact, record, touch, sums, impacts, first, within_reach, step);
     }
     return impacts;
+}
+
+template <int width>
+PackImpacts touch_walls(
+    ContactPack& contact, RecordPack& record, TouchPack& touch, TouchSums& sums, const StepConstants& step)
+{
+    PackImpacts impacts;
+    record.in_problem = 0;
+    for (int first = 0; first < pack_size; first += width) {
+        Flags<width> found;
+        for (int lane = 0; lane < width; ++lane) found[lane] = -static_cast<std::int64_t>(contact.a[first + lane] >= 0);
+        make_contacts<width>(contact, record, touch, sums, impacts, first, found, step);
+    }
+    return impacts;
+}
+
+/// What these contacts were in their step, for their records.
+template <int width>
+[[gnu::always_inline]] inline Flags<width> last_of(const Flags<width>& kind, const Flags<width>& loaded)
+{
+    using F = Flags<width>;
+    const F was_impact = kind == static_cast<std::int64_t>(ContactKind::impact),
+            was_open = kind == static_cast<std::int64_t>(ContactKind::open);
+    return loaded & (was_impact ? F{} + std::int64_t{TouchRecord::impact}
+                                : (was_open ? F{} + std::int64_t{TouchRecord::closing_a_gap}
+                                            : F{} + std::int64_t{TouchRecord::loaded}));
 }
 
 template <int width>
@@ -305,11 +356,7 @@ unsigned hand_on(
         const Vector<width> impulse = Vector<width>::load(contact.impulse, first);
         const N along = impulse.dot(normal), none = {};
         const Vector<width> tangent = impulse.plus(normal, -along);
-        const N tangent_squared = tangent.dot(tangent), most_tangent = load<width>(contact.friction + first) * along;
-        N excess = none;
-        if (const F outside = tangent_squared > most_tangent * most_tangent; any<width>(outside))
-            excess = outside ? root<width>(tangent_squared) - most_tangent : none;
-
+        const N excess = beyond_disk<N>(tangent, load<width>(contact.friction + first) * along);
         const N spring = load_floats<width>(record.spring + first), w = load<width>(record.inverse_mass_sum + first);
         const N u_n = solved_velocity<N>(load<width>(contact.target + first), load<width>(record.compliance + first),
             load<width>(contact.parting + first), along);
@@ -331,15 +378,13 @@ unsigned hand_on(
 
         const N most = load_floats<width>(record.hands_on + first);
         N share = none + 1.0;
-        if (any<width>(along > most)) share = along > most ? most / along : share;
+        if (any_of(along > most)) share = along > most ? most / along : share;
         const F is_deep = -gap > none + jammed_overlap * law.min_diameter;
-        const F now =
-            (along > 0.0) & (kind == std::int64_t{2} ? F{} + 2 : (kind == std::int64_t{1} ? F{} + 3 : F{} + 1));
-        const F touch = is_deep ? widened<width>(record.touch + first) : now;
+        const F touch = is_deep ? widened<width>(record.touch + first) : last_of<width>(kind, along > 0.0);
         narrow<width>(record.touch + first, touch);
         deep_lanes |= bits<width>(is_deep) << first;
 
-        const CarriedRecords<width> carries{impulse * share, root<width>(square), touch};
+        const CarriedRecords<width> carries{impulse * share, root<N>(square), touch};
         double* records[width];
         for (int lane = 0; lane < width; ++lane)
             records[lane] =
@@ -351,7 +396,7 @@ unsigned hand_on(
 
 template <int width> constexpr TouchKernel touches()
 {
-    return {find_near<width>, touch_spheres<width>, make_contacts<width>, hand_on<width>};
+    return {find_near<width>, touch_spheres<width>, touch_walls<width>, hand_on<width>};
 }
 
 } // namespace talus::packs

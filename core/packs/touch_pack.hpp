@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/law/impact.hpp"
 #include "core/packs/contact_pack.hpp"
-#include "core/packs/law.hpp"
 
 namespace talus
 {
@@ -69,7 +69,9 @@ struct alignas(64) TouchSums {
     double stored_energy[pack_size] = {};     ///< in springs [J] …
     double push_out_energy[pack_size] = {};   ///< … of which pushing out has put in so much [J]
     double worst_strain[pack_size] = {};      ///< largest overlap, of that with which a contact yields
-    std::int64_t overlapping[pack_size] = {}; ///< how many overlap
+    std::int64_t overlapping[pack_size] = {}; ///< how many overlap, in the problem or not …
+    std::int64_t contacts[pack_size] = {};    ///< … are in it …
+    std::int64_t impacts[pack_size] = {};     ///< … and are impacts
 };
 
 /// The impacts of a pack.

@@ -32,7 +32,7 @@ std::vector<double> ForceProfile::forces(
         const double height = up_.dot(state.position[static_cast<std::size_t>(sphere)]) - foot_;
         return static_cast<std::size_t>(std::clamp(std::floor(height / spacing_), 0.0, static_cast<double>(cuts_)));
     };
-    for_each_loaded_sphere_contact(network, [&](const Contact& c, const ContactGeometry&) {
+    for_each_loaded_sphere_contact(network, [&](const Contact& c) {
         const std::size_t a = cuts_below(c.a), b = cuts_below(c.b);
         const double lift = (a > b ? 1.0 : -1.0) * c.impulse.dot(up_); // on the upper of the two
         for (std::size_t k = std::min(a, b) + 1; k <= std::max(a, b); ++k) impulse[k] += lift;

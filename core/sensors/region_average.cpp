@@ -87,13 +87,13 @@ Tensor contact_virial(const Region& region, const Snapshot& now)
         }
         return share * branch.norm();
     };
-    for_each_loaded_sphere_contact(now.network, [&](const Contact& c, const ContactGeometry& g) {
-        const double length = inside(c.a, -(state.radius(c.a) + 0.5 * g.gap) * c.normal) +
-                              inside(c.b, (state.radius(c.b) + 0.5 * g.gap) * c.normal);
+    for_each_loaded_sphere_contact(now.network, [&](const Contact& c) {
+        const double length = inside(c.a, -(state.radius(c.a) + 0.5 * c.gap) * c.normal) +
+                              inside(c.b, (state.radius(c.b) + 0.5 * c.gap) * c.normal);
         virial += length * c.impulse * c.normal.transpose();
     });
-    for_each_loaded_wall_contact(now.network, [&](const Contact& c, const ContactGeometry& g) {
-        virial += inside(c.a, -(state.radius(c.a) + g.gap) * c.normal) * c.impulse * c.normal.transpose();
+    for_each_loaded_wall_contact(now.network, [&](const Contact& c) {
+        virial += inside(c.a, -(state.radius(c.a) + c.gap) * c.normal) * c.impulse * c.normal.transpose();
     });
     return virial / now.network.carried.impulse_step;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/gauss_seidel.hpp"
 
-#include "core/solver/tile_crew.hpp"
+#include "core/candidates/tile_crew.hpp"
 #include "core/solver/whole_contact.hpp"
 
 #include <algorithm>

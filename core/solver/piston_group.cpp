@@ -62,13 +62,12 @@ private:
     void add_contact(std::size_t k)
     {
         const Contact c = contacts_.contact(k);
-        const ContactTerms terms = contacts_.terms(k);
         const auto& basis = made_.bases.emplace_back(contact_basis(c.normal));
         const auto piston = static_cast<std::size_t>(model_.walls[c.b].piston);
         talus::add_contact(made_.problem, contacts_, k, basis, rows_,
             {{body_of(c.a), sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, 1.0)},
                 {piston, piston_rows(basis, rows_, arms_[k])}});
-        made_.warm_size += terms.inverse_mass_sum * c.impulse.squaredNorm();
+        made_.warm_size += c.inverse_mass_sum * c.impulse.squaredNorm();
         if (model_.physics.rolling)
             made_.warm_size += contacts_.rolling_impulse(k).squaredNorm() / contacts_.rolling(k).inertia;
     }

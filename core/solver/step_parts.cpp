@@ -74,15 +74,15 @@ MatrixXd sphere_rows(
 void add_contact(Problem& problem, const TileContacts& contacts, std::size_t k, const Eigen::Matrix3d& basis,
     Index rows, const std::vector<multibody::BodyRows>& bodies)
 {
-    const ContactTerms terms = contacts.terms(k);
+    const Contact c = contacts.contact(k);
     VectorXd compliance = VectorXd::Zero(rows), target = VectorXd::Zero(rows);
-    compliance[0] = terms.compliance;
+    compliance[0] = c.compliance;
     if (contacts.has_moving_walls()) target = in_rows(basis, rows, contacts.wall(k).velocity, contacts.wall(k).spin);
-    target[0] += contacts.contact(k).target;
+    target[0] += c.target;
     problem.add_constraint({.law = Law::contact,
-                               .friction = terms.friction,
-                               .headroom = terms.parting - contacts.contact(k).target,
-                               .compliance = terms.compliance,
+                               .friction = c.friction,
+                               .headroom = c.parting - c.target,
+                               .compliance = c.compliance,
                                .rolling_reach = contacts.has_rolling() ? contacts.rolling(k).reach : 0.0},
         bodies, compliance, target);
 }

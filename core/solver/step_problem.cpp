@@ -42,7 +42,7 @@ public:
         add_contact(contacts, k, false, [&](const Eigen::Matrix3d& basis) {
             return BodyRows{
                 body_of_sphere_[contacts.b(k)], sphere_rows(basis, rows_, state_.motion[contacts.b(k)],
-                                                    model_.physics.spin, -1.0, contacts.terms(k).arm_scale)};
+                                                    model_.physics.spin, -1.0, contacts.contact(k).arm_scale)};
         });
     }
 
@@ -87,13 +87,12 @@ private:
         const Contact c = contacts.contact(k);
         const Eigen::Matrix3d basis = contact_basis(c.normal);
         std::vector<BodyRows> bodies = {{body_of_sphere_[c.a],
-            sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, contacts.terms(k).arm_scale)}};
+            sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, c.arm_scale)}};
         if constexpr (!std::is_null_pointer_v<std::decay_t<RowsOfOther>>) bodies.push_back(rows_of_other(basis));
         talus::add_contact(stated_.problem, contacts, k, basis, rows_, bodies);
         append_warm(impulse_in_rows(contacts, k, basis, rows_));
-        const ContactGeometry at = contacts.geometry(k);
-        const Vec3 point = state_.position[c.a] - (state_.radius(c.a) + 0.5 * at.gap) * c.normal;
-        stated_.contacts.push_back({c.a, c.b, with_wall, at.gap, at.kind, point});
+        const Vec3 point = state_.position[c.a] - (state_.radius(c.a) + 0.5 * c.gap) * c.normal;
+        stated_.contacts.push_back({c.a, c.b, with_wall, c.gap, c.kind, point});
     }
 
     void append_warm(const VectorXd& impulse) { warm_.insert(warm_.end(), impulse.begin(), impulse.end()); }

@@ -27,7 +27,7 @@ StateSurvey survey_block(
     const State& state, const Model& model, const StepLength& step, std::size_t begin, std::size_t end)
 {
     StateSurvey survey;
-    const double h = step.h(), whole_step = h * step.parts;
+    const double h = step.h();
     double all_mass = 0.0;
     Vec3 moment = Vec3::Zero(); // Σ m x
     for (std::size_t i = begin; i < end; ++i) {
@@ -40,7 +40,7 @@ StateSurvey survey_block(
         survey.momentum.linear += mass * m.velocity;
         survey.momentum.angular += mass * (x.cross(m.velocity) + m.radius / inverse_inertia_factor * m.rim_velocity);
         survey.fastest_speed = std::max(survey.fastest_speed, speed);
-        if (speed * whole_step > 0.2 * m.radius) ++survey.long_moves;
+        if (speed * step.whole > 0.2 * m.radius) ++survey.long_moves;
         if (const auto kind = incident_of(state, model, i, speed))
             survey.incidents.push_back({*kind, state.id[i], x, speed, state.last_wall[i]});
     }
@@ -72,9 +72,20 @@ void survey_piston(
     survey.kinetic_energy += kinetic_energy(piston, state);
     survey.potential_energy -= piston.mass * model.gravity.dot(center);
     survey.fastest_speed = std::max(survey.fastest_speed, speed);
-    if (speed * step.h() * step.parts > longest_piston_move * model.min_diameter) ++survey.long_moves;
+    if (speed * step.whole > longest_piston_move * model.min_diameter) ++survey.long_moves;
     if (const auto kind = incident_of(state, center, model))
         survey.incidents.push_back({*kind, -1, center, speed, static_cast<std::int32_t>(piston.wall)});
+}
+
+/// Adds work and momentum of the spheres' own forces in a step of length h [s] that has been made.
+void survey_own_forces(StateSurvey& survey, const State& state, double h)
+{
+    for (std::size_t i = 0; i < state.own_force.size(); ++i) {
+        const Vec3 impulse = h * state.own_force[i];
+        const Vec3 way = h * state.motion[i].velocity;
+        survey.load_work += state.own_force[i].dot(way);
+        survey.from_gravity += Momentum{impulse, (state.position[i] - way).cross(impulse)};
+    }
 }
 
 } // namespace
@@ -159,17 +170,8 @@ StateSurvey survey_state(const State& state, const Model& model, const StepLengt
     }
     for (std::size_t k = 0; k < model.pistons.size(); ++k)
         survey_piston(model.pistons[k], state.pistons[k], model, step, all);
+    survey_own_forces(all, state, step.h());
     return all;
-}
-
-void survey_own_forces(StateSurvey& survey, const State& state, double h)
-{
-    for (std::size_t i = 0; i < state.own_force.size(); ++i) {
-        const Vec3 impulse = h * state.own_force[i];
-        const Vec3 way = h * state.motion[i].velocity;
-        survey.load_work += state.own_force[i].dot(way);
-        survey.from_gravity += Momentum{impulse, (state.position[i] - way).cross(impulse)};
-    }
 }
 
 } // namespace talus

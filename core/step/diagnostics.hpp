@@ -4,6 +4,7 @@
 #include "core/step/incidents.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
+#include "core/world/step_length.hpp"
 
 #include <vector>
 
@@ -42,10 +43,7 @@ struct StateSurvey {
     void then(StateSurvey next);
 };
 
-/// @pre the step has been made; load_work is not known here
+/// @pre the step has been made; what loads did on pistons is not known here
 StateSurvey survey_state(const State& state, const Model& model, const StepLength& step);
-
-/// Adds work and momentum of the spheres' own forces in a step of length h [s] that has been made.
-void survey_own_forces(StateSurvey& survey, const State& state, double h);
 
 } // namespace talus

@@ -73,7 +73,7 @@ StepReport make_sub_steps(int count, double wall_speed, State& state, ContactNet
         if (!goes_on(*whole)) break;
     }
     whole->sub_steps = count;
-    state.time = static_cast<double>(++state.steps) * model.time_step;
+    StepLength{model.time_step}.pass(state);
     return *std::move(whole);
 }
 

@@ -1,37 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/contacts/assembly.hpp"
 #include "core/contacts/carry.hpp"
-#include "core/contacts/contact_network.hpp"
 #include "core/contacts/loads.hpp"
-#include "core/pressure_scaling/pressure_scaling.hpp"
-#include "core/solver/flight.hpp"
+#include "core/deep_beds/pressure_scaling.hpp"
 #include "core/solver/gauss_seidel.hpp"
 #include "core/step/diagnostics.hpp"
+#include "core/step/prepare.hpp"
 #include "core/world/model.hpp"
-#include "core/world/placed_wall.hpp"
 #include "core/world/state.hpp"
+#include "core/world/step_length.hpp"
 
-#include <functional>
 #include <optional>
 #include <vector>
 
 namespace talus
 {
-
-/// The phases of a step, in order. `advance` calls the observer when one begins.
-enum class Phase { search, assembly, warm_start, sweeps, positions, report };
-
-using PhaseObserver = std::function<void(Phase)>;
-
-/// What the search of a step did.
-struct SearchReport {
-    std::size_t candidates = 0; ///< listed pairs, walls included
-    std::size_t searched = 0;   ///< spheres whose neighbours were searched anew
-
-    void then(const SearchReport& next); ///< the next sub-step
-};
 
 /// How a step went, by the stage that found it. Returned by value, so nothing leaks from one step into the next. Of a
 /// step that was split, each part says what of its sub-steps it keeps (`then`).
@@ -45,7 +29,6 @@ struct StepReport {
     StateSurvey bodies;
     std::vector<WallLoad> wall_loads; ///< by wall; empty unless a sensor asks for them
     double lifted_energy = 0.0;       ///< potential energy that moves of positions without velocity added [J]
-    double contact_gain = 0.0; ///< energy that single contacts gained; every 16th step is looked at for all 16 [J]
 
     void then(StepReport next); ///< the next sub-step
 };
@@ -62,21 +45,6 @@ struct StepReport {
 /// `network` belongs to `state`: it carries the candidate list and the impulses from step to step, and has the contacts
 /// of the last sub-step, whose impulses have acted for `carried.impulse_step`. (In sub_steps.cpp.)
 StepReport advance(State& state, ContactNetwork& network, const Model& model, const PhaseObserver& observer = {});
-
-/// A step before its impulses: who touches whom, and under which law.
-struct PreparedStep {
-    std::vector<PlacedWall> walls; ///< where they stand, and their mean velocities over the step
-    SearchReport search;
-    ContactSurvey contacts;
-    std::vector<Flight> flights;
-    double impact_ratio = 0.0;  ///< of stand_beside_impacts
-    double impulse_scale = 1.0; ///< of the carried impulses, where the step before had another length
-};
-
-/// The beginning of a step, from which `network` has the problem that the rest of it solves. Positions and velocities
-/// stay as they are; the spheres' order may change.
-PreparedStep prepare_step(State& state, ContactNetwork& network, const Model& model, const StepLength& step,
-    const PhaseObserver& observer = {});
 
 /// The method itself: one step of this length, velocities first, then positions. Nothing if its impulses have made a
 /// sphere or a piston faster than `fastest` [m/s]: then nothing has moved, and velocities are as they were.

@@ -4,6 +4,22 @@
 namespace talus
 {
 
+ModelledPhysics Model::needed_physics(bool spheres_turn) const
+{
+    ModelledPhysics needed{.wall_loads = physics.wall_loads};
+    for (const ContactLaw& law : materials.laws) {
+        needed.friction = needed.friction || law.friction > 0.0 || law.rolling_friction > 0.0;
+        needed.rolling = needed.rolling || law.rolling_friction > 0.0;
+        needed.restitution = needed.restitution || law.restitution > 0.0;
+    }
+    needed.spin = needed.friction && spheres_turn;
+    for (const Wall& wall : walls) {
+        needed.moving_walls = needed.moving_walls || !wall.motion.empty();
+        needed.pistons = needed.pistons || wall.is_piston();
+    }
+    return needed;
+}
+
 Vec3 Model::up() const
 {
     const Vec3 down = gravity - periodicity.part_along(gravity);

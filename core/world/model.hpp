@@ -13,7 +13,7 @@
 namespace talus
 {
 
-/// How overlap is kept small (packs/law.hpp has the laws).
+/// How overlap is kept small (core/law has the laws).
 enum class Stabilisation { matched, projected };
 
 struct SolverSettings {
@@ -26,16 +26,6 @@ struct SolverSettings {
     double push_out_speed = infinity;   ///< with which overlap is undone that no load has pressed [m/s]
     bool pressure_scaling = false;      ///< before the sweeps, see pressure_scaling/; with `projected` only
     bool to_the_end = false;            ///< the tolerance is on what all further sweeps would change, METHOD (9)
-};
-
-/// How long a step is: the model's time step, or one of the equal sub-steps into which it is split where something is
-/// too fast for it.
-struct StepLength {
-    double whole = 0.0; ///< the model's time step [s]
-    int parts = 1;      ///< sub-steps
-
-    double h() const { return whole / parts; } ///< of this step or sub-step [s]
-    bool is_split() const { return parts > 1; }
 };
 
 /// What the scene needs; the rest does not exist in the step.
@@ -67,6 +57,9 @@ struct Model {
     double max_diameter = 0.0;
     ModelledPhysics physics;
     SolverSettings solver;
+
+    /// What must be modelled, by its materials and walls; what sensors ask for stays.
+    ModelledPhysics needed_physics(bool spheres_turn = true) const;
 
     /// Against gravity, as far as it acts across periodic axes; +z without: where the surface of a bed is.
     Vec3 up() const;

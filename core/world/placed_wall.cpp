@@ -134,6 +134,12 @@ bool touches_wall(const std::vector<PlacedWall>& walls, const Vec3& center, doub
         [&](const PlacedWall& wall) { return wall.stands() && wall.gap(center, radius) < 0.0; });
 }
 
+Vec3 way_of(const PlacedWall& began, const Model& model, const State& state)
+{
+    const Vec3& center = model.pistons[began.wall().piston].center;
+    return state.pistons[began.wall().piston].pose(center) - began.pose()(center);
+}
+
 double longest_way(const Pose& from, const Pose& to, const Box& box)
 {
     const Pose change = to.after(from.inverse());

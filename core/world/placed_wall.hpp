@@ -80,6 +80,9 @@ std::vector<PlacedWall> place_walls_at_start(const Model& model);
 /// Whether the ball reaches into a wall that stands.
 bool touches_wall(const std::vector<PlacedWall>& walls, const Vec3& center, double radius);
 
+/// How far a piston has come [m]. @param began how its wall stood then
+Vec3 way_of(const PlacedWall& began, const Model& model, const State& state);
+
 /// The longest way that a point of the box makes from one pose of a wall to another [m].
 double longest_way(const Pose& from, const Pose& to, const Box& box);
 

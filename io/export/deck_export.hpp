@@ -3,7 +3,7 @@
 
 #include "io/export/frame_export.hpp"
 #include "scenarios/scene.hpp"
-#include "scenarios/simulation.hpp"
+#include "core/simulation/simulation.hpp"
 
 /// A scene as the input of LAMMPS (tried: 29 Sep 2021) or LIGGGHTS (3.8): spheres as they lie, materials, walls,
 /// pours, outlets, sensors of mass flow, frames. Their contacts are springs: Hertz and Mindlin, with damping from the

@@ -55,23 +55,22 @@ std::vector<std::size_t> shown_spheres(const State& state, const OutputChoice& o
     return shown;
 }
 
-std::vector<ContactLine> loaded_contacts(const Simulation& simulation)
+std::vector<ContactLine> loaded_contacts(const Simulation& simulation, const OutputChoice& output)
 {
     const State& state = simulation.state;
     const double h = simulation.network.carried.impulse_step;
     std::vector<ContactLine> lines;
-    const auto add = [&](const Contact& c, const ContactGeometry& g, double length, std::int64_t id_b, int wall) {
+    const auto add = [&](const Contact& c, double length, std::int64_t id_b, int wall) {
         const Vec3& x = state.position[c.a];
         const Vec3 point = x - state.radius(c.a) * c.normal;
-        if (shows(simulation.output, point))
-            lines.push_back({x, x - length * c.normal, c.impulse / h, c.impulse.dot(c.normal) / h, g.gap, state.id[c.a],
+        if (shows(output, point))
+            lines.push_back({x, x - length * c.normal, c.impulse / h, c.impulse.dot(c.normal) / h, c.gap, state.id[c.a],
                 id_b, wall});
     };
-    for_each_loaded_sphere_contact(simulation.network, [&](const Contact& c, const ContactGeometry& g) {
-        add(c, g, state.radius(c.a) + state.radius(c.b) + g.gap, state.id[c.b], -1);
-    });
-    for_each_loaded_wall_contact(simulation.network,
-        [&](const Contact& c, const ContactGeometry& g) { add(c, g, state.radius(c.a) + g.gap, -1, c.b); });
+    for_each_loaded_sphere_contact(simulation.network,
+        [&](const Contact& c) { add(c, state.radius(c.a) + state.radius(c.b) + c.gap, state.id[c.b], -1); });
+    for_each_loaded_wall_contact(
+        simulation.network, [&](const Contact& c) { add(c, state.radius(c.a) + c.gap, -1, c.b); });
     return lines;
 }
 
@@ -88,11 +87,12 @@ void drop_weaker_than(double threshold, std::vector<ContactLine>& lines)
     std::erase_if(lines, [&](const ContactLine& line) { return line.force.norm() <= threshold * mean; });
 }
 
-void add_particle_arrays(vtkPointData& data, const Simulation& simulation, const std::vector<std::size_t>& shown)
+void add_particle_arrays(vtkPointData& data, const std::vector<std::string>& arrays, const Simulation& simulation,
+    const std::vector<std::size_t>& shown)
 {
     const State& state = simulation.state;
     const std::size_t count = shown.size();
-    const auto asked = [&](const char* name) { return is_asked_for(simulation.output.particle_arrays, name); };
+    const auto asked = [&](const char* name) { return is_asked_for(arrays, name); };
     add_integers(data, "id", count, [&](std::size_t k) { return state.id[shown[k]]; });
     add_floats(data, "radius", count, [&](std::size_t k) { return state.radius(shown[k]); });
     if (asked("velocity"))
@@ -109,15 +109,15 @@ void add_particle_arrays(vtkPointData& data, const Simulation& simulation, const
         add_integers(data, "coordination", count, [&](std::size_t k) { return loads[shown[k]].contacts; });
 }
 
-vtkNew<vtkPolyData> particles_of(const Simulation& simulation)
+vtkNew<vtkPolyData> particles_of(const Simulation& simulation, const OutputChoice& output)
 {
     const State& state = simulation.state;
-    const std::vector<std::size_t> shown = shown_spheres(state, simulation.output);
+    const std::vector<std::size_t> shown = shown_spheres(state, output);
     const std::size_t count = shown.size();
     vtkNew<vtkPolyData> geometry;
     set_points(*geometry, count, [&](std::size_t k) { return state.position[shown[k]]; });
     add_point_cell(*geometry, count);
-    add_particle_arrays(*geometry->GetPointData(), simulation, shown);
+    add_particle_arrays(*geometry->GetPointData(), output.particle_arrays, simulation, shown);
     return geometry;
 }
 
@@ -135,10 +135,10 @@ void add_contact_arrays(
     if (asked("wall")) add_integers(data, "wall", count, [&](std::size_t k) { return lines[k].wall; });
 }
 
-vtkNew<vtkPolyData> contacts_of(const Simulation& simulation)
+vtkNew<vtkPolyData> contacts_of(const Simulation& simulation, const OutputChoice& output)
 {
-    std::vector<ContactLine> lines = loaded_contacts(simulation);
-    drop_weaker_than(simulation.output.contact_threshold, lines);
+    std::vector<ContactLine> lines = loaded_contacts(simulation, output);
+    drop_weaker_than(output.contact_threshold, lines);
     vtkNew<vtkPolyData> geometry;
     set_points(
         *geometry, 2 * lines.size(), [&](std::size_t p) { return p % 2 == 0 ? lines[p / 2].from : lines[p / 2].to; });
@@ -146,13 +146,14 @@ vtkNew<vtkPolyData> contacts_of(const Simulation& simulation)
     for (vtkIdType first = 0; first < static_cast<vtkIdType>(2 * lines.size()); first += 2)
         cells->InsertNextCell({first, first + 1});
     geometry->SetLines(cells);
-    add_contact_arrays(*geometry->GetCellData(), simulation.output.contact_arrays, lines);
+    add_contact_arrays(*geometry->GetCellData(), output.contact_arrays, lines);
     return geometry;
 }
 
 } // namespace
 
-FrameWriter::FrameWriter(std::filesystem::path folder) : folder_(std::move(folder))
+FrameWriter::FrameWriter(std::filesystem::path folder, OutputChoice output)
+    : folder_(std::move(folder)), output_(std::move(output))
 {
     std::error_code error;
     std::filesystem::create_directories(folder_ / "frames", error);
@@ -161,17 +162,17 @@ FrameWriter::FrameWriter(std::filesystem::path folder) : folder_(std::move(folde
 
 void FrameWriter::write_particles(const Simulation& simulation)
 {
-    add_frame(particles_, simulation.state.time, *particles_of(simulation));
+    add_frame(particles_, simulation.state.time, *particles_of(simulation, output_));
 }
 
-void write_particles(const Simulation& simulation, const std::filesystem::path& file)
+void write_particles(const Simulation& simulation, const OutputChoice& output, const std::filesystem::path& file)
 {
-    write_atomically(file, vtp_bytes(*particles_of(simulation), simulation.state.time));
+    write_atomically(file, vtp_bytes(*particles_of(simulation, output), simulation.state.time));
 }
 
 void FrameWriter::write_contacts(const Simulation& simulation)
 {
-    add_frame(contacts_, simulation.state.time, *contacts_of(simulation));
+    add_frame(contacts_, simulation.state.time, *contacts_of(simulation, output_));
 }
 
 void FrameWriter::write_walls(const Model& model, const State& state)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/simulation/simulation.hpp"
 #include "core/supply/removal.hpp"
-#include "scenarios/simulation.hpp"
+#include "scenarios/output_choice.hpp"
 
 #include <filesystem>
 #include <string>
@@ -20,15 +21,16 @@ class FrameWriter
 {
 public:
     /// @param folder the run's output folder, which exists.
+    /// @param output what frames of spheres and contacts show
     /// @throws OutputError
-    explicit FrameWriter(std::filesystem::path folder);
+    explicit FrameWriter(std::filesystem::path folder, OutputChoice output = {});
 
-    /// The spheres, in the order of their ids, with the arrays that `Simulation::output` asks for.
+    /// The spheres, in the order of their ids, with the arrays that are asked for.
     /// @pre for `force` and `coordination`: no sphere was removed or renumbered since the last step
     /// @throws OutputError
     void write_particles(const Simulation& simulation);
 
-    /// Contacts of the last step as lines, with the arrays that `Simulation::output` asks for.
+    /// Contacts of the last step as lines, with the arrays that are asked for.
     /// @pre no sphere was removed or renumbered since that step
     /// @throws OutputError
     void write_contacts(const Simulation& simulation);
@@ -56,6 +58,7 @@ private:
         std::vector<double> times; ///< of its frames [s]
     };
     std::filesystem::path folder_;
+    OutputChoice output_;
     Series particles_{"particles", {}}, contacts_{"contacts", {}}, walls_{"walls", {}},
         moving_walls_{"moving_walls", {}};
 
@@ -66,7 +69,7 @@ private:
 };
 
 /// Writes the spheres as a frame has them into a file that no list knows. @throws OutputError
-void write_particles(const Simulation& simulation, const std::filesystem::path& file);
+void write_particles(const Simulation& simulation, const OutputChoice& output, const std::filesystem::path& file);
 
 /// Writes lost.vtp into a run's folder: the spheres that escaped, each as it was then. Without any the file is removed.
 /// @throws OutputError

@@ -203,8 +203,7 @@ Json to_json(const ErrorSummary& error)
         {"long_moves", error.long_moves}, {"sub_steps", {{"steps", error.split_steps}, {"most", error.most_sub_steps}}},
         {"cone_violation", error.cone_violation},
         {"pressure_scaling", {{"corrections", error.corrections}, {"refused", error.refused_corrections}}},
-        {"energy", {{"lost", error.energy_lost}, {"gained", error.energy_gained},
-                       {"gained_by_contacts", error.energy_gained_by_contacts}, {"put_in", error.energy_put_in}}},
+        {"energy", {{"lost", error.energy_lost}, {"gained", error.energy_gained}, {"put_in", error.energy_put_in}}},
         {"momentum", to_json(error.linear)}, {"angular_momentum", to_json(error.angular)}};
 }
 

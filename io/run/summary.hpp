@@ -123,10 +123,9 @@ struct ErrorSummary {
     std::int64_t refused_corrections = 0; ///< of them, for energy would have risen
     double energy_lost = 0.0;   ///< kinetic + potential + stored in contacts: sum of its falls from step to step [J]
     double energy_gained = 0.0; ///< sum of its rises, which nothing put in [J]
-    double energy_gained_by_contacts = 0.0; ///< by single ones beyond what their springs gave, others' losses aside [J]
-    double energy_put_in = 0.0;             ///< work of moving walls, and of gravity along periodic axes [J]
-    MomentumSums linear;                    ///< momentum of the spheres [N s]
-    MomentumSums angular; ///< about the origin [N m s]; not where axes are periodic, across which it is not kept
+    double energy_put_in = 0.0; ///< work of moving walls, and of gravity along periodic axes [J]
+    MomentumSums linear;        ///< momentum of the spheres [N s]
+    MomentumSums angular;       ///< about the origin [N m s]; not where axes are periodic, across which it is not kept
 };
 
 struct PhaseTime {

@@ -5,7 +5,7 @@
 #include "io/run/checkpoint.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/text/input_error.hpp"
-#include "scenarios/build/build_scene.hpp"
+#include "scenarios/builder/build_scene.hpp"
 
 #include <omp.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenarios/scene.hpp"
-#include "scenarios/simulation.hpp"
+#include "core/simulation/simulation.hpp"
 
 #include <functional>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/sieve_file.hpp"
 #include "io/text/input_error.hpp"
-#include "scenarios/build/build_scene.hpp"
+#include "scenarios/builder/build_scene.hpp"
 #include "scenarios/scene_error.hpp"
 #include "tests/fuzz/fuzzed_file.hpp"
 #include "tests/scenarios/small_scene.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hard_case.hpp"
 
-#include "core/packs/law.hpp"
+#include "core/law/impact.hpp"
 #include "tests/support/world.hpp"
 
 #include <algorithm>

@@ -23,12 +23,11 @@ std::map<std::int64_t, int> loaded_contacts(const Simulation& simulation)
 {
     const auto& id = simulation.state.id;
     std::map<std::int64_t, int> count;
-    for_each_loaded_sphere_contact(simulation.network, [&](const Contact& contact, const ContactGeometry&) {
+    for_each_loaded_sphere_contact(simulation.network, [&](const Contact& contact) {
         ++count[id[contact.a]];
         ++count[id[contact.b]];
     });
-    for_each_loaded_wall_contact(
-        simulation.network, [&](const Contact& contact, const ContactGeometry&) { ++count[id[contact.a]]; });
+    for_each_loaded_wall_contact(simulation.network, [&](const Contact& contact) { ++count[id[contact.a]]; });
     return count;
 }
 

@@ -3,7 +3,7 @@
 
 #include "core/base/region.hpp"
 #include "core/step/diagnostics.hpp"
-#include "scenarios/build/build_scene.hpp"
+#include "scenarios/builder/build_scene.hpp"
 #include "tests/support/contacts.hpp"
 
 #include <catch2/catch.hpp>

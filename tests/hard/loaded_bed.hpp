@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/step/time_step.hpp"
-#include "scenarios/simulation.hpp"
+#include "core/simulation/simulation.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/properties/as_a_scene.hpp"
 
-#include "scenarios/build/solver.hpp"
-#include "scenarios/build/step_choice.hpp"
+#include "scenarios/builder/solver.hpp"
+#include "scenarios/builder/step_choice.hpp"
 
 namespace talus::test
 {

@@ -507,17 +507,15 @@ std::string contact_table(const World& world, int parts)
     text.precision(6);
     for_each_contact(copy.network, [&](const TileContacts& contacts, std::size_t k, bool with_wall) {
         const Contact c = contacts.contact(k);
-        const ContactTerms terms = contacts.terms(k);
-        const ContactGeometry geometry = contacts.geometry(k);
         Vec3 u = copy.state.motion[c.a].velocity;
         if (with_wall && contacts.has_moving_walls()) u -= contacts.wall(k).velocity;
         if (!with_wall) u -= copy.state.motion[c.b].velocity;
         text << "    " << copy.state.id[c.a] << (with_wall ? " at wall " : " on ")
              << (with_wall ? c.b : static_cast<std::int32_t>(copy.state.id[c.b])) << ": kind "
-             << static_cast<int>(geometry.kind) << ", gap " << geometry.gap / d << " d, kappa "
-             << geometry.compression / d << " d, u_n " << u.dot(c.normal) << " m/s (" << u.dot(c.normal) * h / d
-             << " d/h), carries " << c.impulse.dot(c.normal) * terms.inverse_mass_sum << " m/s W, q " << c.target
-             << ", Sigma/W " << terms.compliance / terms.inverse_mass_sum << '\n';
+             << static_cast<int>(c.kind) << ", gap " << c.gap / d << " d, kappa " << c.compression / d << " d, u_n "
+             << u.dot(c.normal) << " m/s (" << u.dot(c.normal) * h / d << " d/h), carries "
+             << c.impulse.dot(c.normal) * c.inverse_mass_sum << " m/s W, q " << c.target << ", Sigma/W "
+             << c.compliance / c.inverse_mass_sum << '\n';
     });
     return text.str();
 }

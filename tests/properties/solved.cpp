@@ -15,7 +15,7 @@ bool is_solved(const World& world, const StepReport& report)
     double size = 0.0, momentum = 0.0;
     const auto note = [&](const TileContacts& contacts) {
         for (const std::size_t k : contacts.indices())
-            size += contacts.terms(k).inverse_mass_sum * contacts.impulse(k).squaredNorm();
+            size += contacts.contact(k).inverse_mass_sum * contacts.impulse(k).squaredNorm();
     };
     for (const TileContacts& tile : world.network.contacts.spheres) note(tile);
     for (const TileContacts& tile : world.network.contacts.walls) note(tile);

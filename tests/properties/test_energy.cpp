@@ -6,7 +6,7 @@
 #include "tests/support/contacts.hpp"
 
 #include "core/contacts/assembly.hpp"
-#include "core/packs/law.hpp"
+#include "core/law/impact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +83,7 @@ double pushed_by_rows(const World& world, double h)
 {
     double sum = 0.0;
     for_each_contact(world.network, [&](const TileContacts& contacts, std::size_t k, bool) {
-        const ContactGeometry own = contacts.geometry(k);
+        const Contact own = contacts.contact(k);
         if (own.kind != ContactKind::resting && own.kind != ContactKind::yielding) return;
         const double speed = std::min(world.model.solver.push_out_speed, 4.0 * upsilon * std::max(0.0, -own.gap) / h);
         sum += std::max(0.0, contacts.impulse(k).dot(contacts.normal(k))) * speed;
@@ -187,11 +187,11 @@ double most_pushed_out(const World& world, const LawOfStep& law)
     const double whole = law.parts * law.h, way = law.h * world.model.solver.push_out_speed;
     double sum = 0.0;
     for_each_contact(world.network, [&](const TileContacts& contacts, std::size_t k, bool) {
-        const double depth = std::max(0.0, -contacts.geometry(k).gap);
+        const double depth = std::max(0.0, -contacts.gap(k));
         const double stiffness = world.model.materials.laws[0].stiffness; // in these worlds all are equally stiff
         LawOfStep of_whole = law;
         of_whole.h = whole;
-        const double W = contacts.terms(k).inverse_mass_sum;
+        const double W = contacts.contact(k).inverse_mass_sum;
         const double k_n = 4.0 * upsilon / (spring_compliance<double>(stiffness, W, of_whole) * whole * whole);
         const double speed = 2.0 * largest_velocity(world); // before the step and after it
         sum += k_n * std::min(way, depth) * (depth + law.h * speed);

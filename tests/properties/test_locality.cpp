@@ -246,17 +246,15 @@ Laws laws_of(World world, int parts)
     Laws laws;
     for_each_contact(world.network, [&](const TileContacts& contacts, std::size_t k, bool with_wall) {
         const Contact c = contacts.contact(k);
-        const ContactGeometry geometry = contacts.geometry(k);
         const std::int64_t a = world.state.id[static_cast<std::size_t>(c.a)];
         const std::int64_t b = with_wall ? c.b : world.state.id[static_cast<std::size_t>(c.b)];
         int place = 0;
         while (laws.contains({a, b, with_wall, place})) ++place;
-        if (geometry.kind == ContactKind::impact && geometry.gap > 0.0) {
+        if (c.kind == ContactKind::impact && c.gap > 0.0) {
             laws.met.insert(a);
             if (!with_wall) laws.met.insert(b);
         }
-        laws[{a, b, with_wall, place}] = {
-            geometry.kind, geometry.gap, geometry.compression, c.target, contacts.terms(k).compliance};
+        laws[{a, b, with_wall, place}] = {c.kind, c.gap, c.compression, c.target, c.compliance};
     });
     return laws;
 }

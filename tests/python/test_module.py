@@ -212,7 +212,7 @@ class Reading(InFolder):
         sim = talus.Simulation(box_of_beads())
         sim.run(until=0.6)
         contacts = sim.contacts()
-        self.assertEqual(contacts.dtype.names, ("a", "b", "wall", "point", "normal", "gap", "force"))
+        self.assertEqual(contacts.dtype.names, ("a", "b", "wall", "point", "normal", "gap", "compression", "force"))
         at_wall = contacts[contacts["wall"] == sim.wall_names.index("box")]
         weight = sim.masses().sum() * 9.81
         numpy.testing.assert_allclose(at_wall["force"].sum(axis=0), -sim.wall("box").force, atol=1e-9)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/world/placed_wall.hpp"
-#include "scenarios/build/build_scene.hpp"
+#include "scenarios/builder/build_scene.hpp"
 #include "tests/scenarios/small_scene.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scenarios/build/build_scene.hpp"
+#include "scenarios/builder/build_scene.hpp"
 #include "tests/scenarios/small_scene.hpp"
 
 #include <catch2/catch.hpp>

@@ -24,15 +24,15 @@ bool any_law(const Materials& materials, double ContactLaw::*coefficient)
         materials.laws.begin(), materials.laws.end(), [=](const auto& law) { return law.*coefficient > 0; });
 }
 
-ContactForce contact_force(const Contact& contact, const ContactTerms& terms, const ContactGeometry& geometry, double h)
+ContactForce contact_force(const Contact& contact, double h)
 {
     ContactForce force;
     force.normal = contact.normal;
-    force.normal_force = contact.impulse.dot(contact.normal) / h;
+    force.normal_force = contact.normal_impulse() / h;
     force.tangent_force = contact.impulse / h - force.normal_force * contact.normal;
-    force.friction = terms.friction;
-    force.gap = geometry.gap;
-    force.arm_scale = terms.arm_scale;
+    force.friction = contact.friction;
+    force.gap = contact.gap;
+    force.arm_scale = contact.arm_scale;
     return force;
 }
 
@@ -113,8 +113,7 @@ std::vector<ContactForce> World::contact_forces() const
     std::vector<ContactForce> forces;
     for_each_contact(network, [&](const TileContacts& contacts, std::size_t k, bool with_wall) {
         const Contact contact = contacts.contact(k);
-        ContactForce force =
-            contact_force(contact, contacts.terms(k), contacts.geometry(k), network.carried.impulse_step);
+        ContactForce force = contact_force(contact, network.carried.impulse_step);
         force.with_wall = with_wall;
         force.a = state.id[static_cast<std::size_t>(contact.a)];
         force.b = with_wall ? contact.b : state.id[static_cast<std::size_t>(contact.b)];

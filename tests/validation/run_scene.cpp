@@ -2,7 +2,7 @@
 #include "run_scene.hpp"
 
 #include "io/scene/scene_file.hpp"
-#include "scenarios/build/build_scene.hpp"
+#include "scenarios/builder/build_scene.hpp"
 
 #include <catch2/catch.hpp>
 

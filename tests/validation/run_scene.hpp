@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "scenarios/simulation.hpp"
+#include "core/simulation/simulation.hpp"
 
 #include <string>
 #include <vector>

@@ -97,7 +97,7 @@ Census census(const ContactNetwork& network)
 {
     Census count;
     for_each_contact(network, [&](const TileContacts& contacts, std::size_t k, bool) {
-        count.impacts += contacts.geometry(k).kind == ContactKind::impact;
+        count.impacts += contacts.kind(k) == ContactKind::impact;
         count.rolling += contacts.has_rolling() && contacts.rolling(k).reach > 0.0;
         count.with_pistons += &contacts == &network.contacts.pistons;
         count.moving += contacts.has_moving_walls() && !contacts.wall(k).velocity.isZero(0.0);

@@ -235,7 +235,7 @@ TEST_CASE("impulses stay with their pair when the list is rebuilt and renumbered
     for (std::int32_t i = 0; i < 19; ++i) {
         CarriedContact& carried = carried_of(i, i + 1);
         carried.impulse = Vec3(i + 1, 0, 0);
-        carried.touch.note_load(true);
+        carried.touch.note(TouchRecord::loaded);
     }
     std::vector<std::int32_t> new_index(20);
     for (std::int32_t i = 0; i < 20; ++i) new_index[static_cast<std::size_t>(i)] = (7 * i) % 20;

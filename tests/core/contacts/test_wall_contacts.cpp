@@ -161,7 +161,7 @@ TEST_CASE("new contacts of a wall take over what the old ones with the nearest n
     auto& contact = carried.walls.contact;
     contact[0].impulse = Vec3(1, 0, 0);
     contact[1].impulse = Vec3(0, 0, 3);
-    for (const std::size_t k : {0, 1}) contact[k].touch.note_load(true);
+    for (const std::size_t k : {0, 1}) contact[k].touch.note(TouchRecord::loaded);
     WallPair pair{.sphere = 0, .wall = 0, .first = 0, .patches = 3, .carried = 2};
     const auto towards = [](const Vec3& n) { return WallPoint{Vec3::Zero(), n.normalized(), 1.0}; };
 

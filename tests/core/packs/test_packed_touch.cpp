@@ -59,16 +59,16 @@ struct Touches {
             record.slot[lane] = static_cast<std::uint32_t>(pack_size - 1 - lane);
             ContactLaw& law = laws[static_cast<std::size_t>(2 * lane * spheres + 2 * lane + 1)];
             law = {number(0, 1), lane % 3 ? number(0, 1) : 0.0, 0.0, lane % 2 ? 1e4 : infinity};
-            if (was_struck(lane)) carried_of(lane).touch.note_impact();
+            if (was_struck(lane)) carried_of(lane).touch.note(TouchRecord::impact);
             if (is_new(lane)) continue;
             // In half of them it points outwards. Impacts have 10⁻³ N s: a part of these loads is none beside that.
             CarriedContact& own = carried_of(lane);
             const double size = lane % 2 ? 1.0 : 1e-7;
             for (int d = 0; d < 3; ++d) own.impulse[d] = size * number(-1, 1);
             own.compression = static_cast<float>(number(0, 0.1 * radius));
-            own.touch.note_load(true);
+            own.touch.note(TouchRecord::loaded);
             if (is_jammed(lane)) own.touch.note_known();
-            if (had_gap(lane)) own.touch.note_closing();
+            if (had_gap(lane)) own.touch.note(TouchRecord::closing_a_gap);
         }
     }
 
@@ -247,14 +247,13 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
         const ContactLaw& pair = all.law(lane);
         const CarriedContact& own = all.carried_of(lane);
         const double carried_along = std::max(0.0, own.impulse.dot(normal));
-        const auto root = [](double square) { return std::sqrt(square); };
         const double u_n = normal.dot(velocity);
         const double spring = spring_compliance<double>(pair.stiffness, w, step);
         const ContactEvent<double> event{gap, 2 * radius, 0.5 * radius, u_n, u_n,
             closing_time<double>(
-                -across.dot(velocity), velocity.squaredNorm(), across.squaredNorm() - 4 * radius * radius, root),
+                -across.dot(velocity), velocity.squaredNorm(), across.squaredNorm() - 4 * radius * radius),
             w, pair.restitution, pair.stiffness, Touches::had_gap(lane) ? 0.0 : step.parts * carried_along,
-            taken_over<double>(own.compression, carried_along > 0.0, gap, u_n, pair.restitution, spring, w, step, root),
+            taken_over<double>(own.compression, carried_along > 0.0, gap, u_n, pair.restitution, spring, w, step),
             Touches::was_struck(lane)};
         const bool impact = is_impact<double>(event, step), open = gap > touching_gap * 2 * radius;
         const bool yields = -gap > elastic_overlap<double>(event, step);
@@ -293,7 +292,7 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
         // A spring holds what it held with the κ that it had, and what pushing out has put in; a new one, all of it.
         const bool keeps = law.compression > 0.0, had = keeps && event.compression > touching_gap * 2 * radius;
         const auto energy = [&](double kappa, double speed) { return spring_energy(kappa, speed, spring, w, step); };
-        const double kappa = law.compression - (law.yields ? 0.5 * step.h * std::min(0.0, u_n) : 0.0);
+        const double kappa = law.compression - (yields && !impact ? 0.5 * step.h * std::min(0.0, u_n) : 0.0);
         const double held = had ? energy(kappa - law.grown, u_n) : 0.0;
         const double holds = keeps ? energy(kappa, had ? u_n : 0.0) : 0.0;
         const double square_before = had ? spring_square<double>(kappa - law.grown, u_n, spring, w, step) : 0.0;
@@ -348,7 +347,7 @@ TEST_CASE("contacts hand on their impulses and what their springs keep, impacts 
         if (!solved.holds(lane)) {
             CHECK(own.impulse == Vec3::Zero());
             CHECK(own.compression == 0.0F);
-            CHECK_FALSE((own.touch.is_loaded() || own.touch.was_impact()));
+            CHECK_FALSE((own.touch.last() != TouchRecord::unloaded));
             continue;
         }
         const Vec3 handed = along > most ? Vec3(most / along * impulse) : impulse;
@@ -361,8 +360,8 @@ TEST_CASE("contacts hand on their impulses and what their springs keep, impacts 
             CHECK(own.touch.is_jammed() == Touches::is_jammed(lane)); // left to the caller
         } else {
             CHECK(own.touch.is_loaded() == (is_loaded && kind != ContactKind::impact));
-            CHECK(own.touch.was_impact() == (is_loaded && kind == ContactKind::impact));
-            CHECK(own.touch.was_open() == (is_loaded && kind == ContactKind::open));
+            CHECK((own.touch.last() == TouchRecord::impact) == (is_loaded && kind == ContactKind::impact));
+            CHECK((own.touch.last() == TouchRecord::closing_a_gap) == (is_loaded && kind == ContactKind::open));
             CHECK_FALSE(own.touch.is_jammed());
         }
 

@@ -15,8 +15,8 @@ namespace
 bool has_kind(const ContactNetwork& network, ContactKind kind)
 {
     bool found = false;
-    for_each_contact(network,
-        [&](const TileContacts& contacts, std::size_t k, bool) { found = found || contacts.geometry(k).kind == kind; });
+    for_each_contact(
+        network, [&](const TileContacts& contacts, std::size_t k, bool) { found = found || contacts.kind(k) == kind; });
     return found;
 }
 
@@ -90,8 +90,8 @@ std::vector<DenseContact> dense_contacts(const ContactNetwork& network)
         }
         dense.normal = contact.normal;
         dense.target = contact.target;
-        dense.compliance = contacts.terms(k).compliance;
-        dense.friction = contacts.terms(k).friction;
+        dense.compliance = contact.compliance;
+        dense.friction = contact.friction;
         dense.rolling_reach = contacts.has_rolling() ? contacts.rolling(k).reach : 0.0;
         dense.impulse = contact.impulse;
         dense.rolling_impulse = rolling_impulse(contacts, k);
@@ -104,11 +104,7 @@ std::vector<DenseContact> dense_contacts(const ContactNetwork& network)
 void let_part(ContactNetwork& network)
 {
     const auto change = [](TileContacts& contacts) {
-        for (const std::size_t k : contacts.indices()) {
-            ContactTerms terms = contacts.terms(k);
-            terms.parting = infinity;
-            contacts.set(k, contacts.contact(k), terms);
-        }
+        for (const std::size_t k : contacts.indices()) contacts.pack(k / pack_size).parting[k % pack_size] = infinity;
     };
     for (TileContacts& contacts : network.contacts.spheres) change(contacts);
     for (TileContacts& contacts : network.contacts.walls) change(contacts);
@@ -124,7 +120,7 @@ void lay_arms(DenseProblem& dense, const ContactNetwork& network, const State& s
         if (!with_wall) {
             const double radii = state.radius(a) + state.radius(b);
             const double longer =
-                contacts.terms(slot).arm_scale * radii / (state.position[a] - state.position[b]).norm();
+                contacts.contact(slot).arm_scale * radii / (state.position[a] - state.position[b]).norm();
             for (const std::int32_t sphere : {a, b}) dense.jacobian.block<3, 3>(row, 6 * sphere + 3) *= longer;
         }
         row += DenseProblem::rows;

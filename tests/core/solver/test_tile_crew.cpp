@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/region.hpp"
-#include "core/solver/tile_crew.hpp"
+#include "core/candidates/tile_crew.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -42,7 +42,7 @@ int incidents_in(World& world, int steps)
 TEST_CASE("a contact that yields is jammed once it comes deeper and deeper, until it yields no more", "[press]")
 {
     TouchRecord touch;
-    touch.note_impact();
+    touch.note(TouchRecord::impact);
     for (int k = 0; k < 300; ++k) { // it yields, and bears what there is
         touch.note_yield(k % 2 == 0, false);
         CHECK_FALSE(touch.is_jammed());
@@ -62,35 +62,13 @@ TEST_CASE("a contact that yields is jammed once it comes deeper and deeper, unti
         CHECK(touch.is_jammed());
         CHECK_FALSE(touch.is_newly_jammed());
     }
-    CHECK(touch.was_impact()); // which is another matter
+    CHECK(touch.last() == TouchRecord::impact); // which is another matter
     touch.note_hold();
     CHECK_FALSE(touch.is_jammed());
     touch.note_yield(true, true);
     CHECK_FALSE(touch.is_jammed());
     touch.note_yield(true, true); // then it can come to be so anew
     CHECK(touch.is_newly_jammed());
-}
-
-TEST_CASE(
-    "what a contact was in the step before is one of: nothing, a load, the closing of a gap, an impact", "[press]")
-{
-    // (loaded, was open, was an impact): an impact is no load, for it has no part in the next step.
-    const auto is = [](const TouchRecord& touch) {
-        return std::array{touch.is_loaded(), touch.was_open(), touch.was_impact()};
-    };
-    TouchRecord touch;
-    CHECK(is(touch) == std::array{false, false, false});
-    for (int k = 0; k < 2; ++k) { // whatever it was before
-        touch.note_impact();
-        CHECK(is(touch) == std::array{false, false, true});
-        touch.note_load(true);
-        CHECK(is(touch) == std::array{true, false, false});
-        touch.note_closing();
-        CHECK(is(touch) == std::array{true, true, false});
-        touch.note_load(false);
-        CHECK(is(touch) == std::array{false, false, false});
-        touch.note_closing();
-    }
 }
 
 TEST_CASE("overlaps at the start, a shaken bed and a heavy plate are no presses", "[press]")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/run/frames.hpp"
 #include "tests/io/scene_folder.hpp"
+#include "tests/support/contacts.hpp"
 #include "tests/support/regions.hpp"
 
 #include <vtkCellData.h>
@@ -59,10 +60,10 @@ Simulation stack_of_two()
     ContactNetwork& network = simulation.network;
     network.carried.impulse_step = simulation.model.time_step;
     TileContacts& spheres = network.contacts.spheres.emplace_back();
-    spheres.set(spheres.append(), {.a = 1, .b = 0, .impulse = Vec3(0.001, 0, 0.003)}, {}, {});
-    spheres.set(spheres.append(), {.a = 1, .b = 0}, {}, {}); // without an impulse
+    test::set_contact(spheres, spheres.append(), {.a = 1, .b = 0, .impulse = Vec3(0.001, 0, 0.003)});
+    test::set_contact(spheres, spheres.append(), {.a = 1, .b = 0}); // without an impulse
     TileContacts& walls = network.contacts.walls.emplace_back();
-    walls.set(walls.append(), {.a = 0, .b = 1, .impulse = Vec3(0, 0, 0.012)}, {}, {.gap = -0.125});
+    test::set_contact(walls, walls.append(), {.a = 0, .b = 1, .impulse = Vec3(0, 0, 0.012), .gap = -0.125});
     return simulation;
 }
 
@@ -120,7 +121,9 @@ TEST_CASE("the force of a contact is that of the last sub-step, and its line end
     simulation.network.carried.impulse_step = 0.25 * simulation.model.time_step;
     simulation.state.position[1].z() = 1.25; // an overlap of a quarter
     TileContacts& spheres = simulation.network.contacts.spheres[0];
-    spheres.set(0, spheres.contact(0), spheres.terms(0), {.gap = -0.25});
+    Contact contact = spheres.contact(0);
+    contact.gap = -0.25;
+    test::set_contact(spheres, 0, contact);
     const SceneFolder folder;
     FrameWriter(folder.path()).write_contacts(simulation);
     const auto frame = read_frame(folder.path() / "frames/contacts_000000.vtp");
@@ -133,9 +136,9 @@ TEST_CASE("the force of a contact is that of the last sub-step, and its line end
 TEST_CASE("contacts with less than the threshold of mean forces are left out", "[frames]")
 {
     const SceneFolder folder;
-    Simulation simulation = stack_of_two();
-    simulation.output.contact_threshold = 1.0; // forces 3.2 N and 12 N
-    FrameWriter(folder.path()).write_contacts(simulation);
+    OutputChoice output;
+    output.contact_threshold = 1.0; // forces 3.2 N and 12 N
+    FrameWriter(folder.path(), output).write_contacts(stack_of_two());
     const auto frame = read_frame(folder.path() / "frames/contacts_000000.vtp");
     REQUIRE(frame->GetNumberOfCells() == 1);
     CHECK(value(frame->GetCellData(), "wall", 0) == 1);
@@ -144,10 +147,11 @@ TEST_CASE("contacts with less than the threshold of mean forces are left out", "
 TEST_CASE("frames hold the arrays that are asked for, and no others", "[frames]")
 {
     const SceneFolder folder;
-    Simulation simulation = stack_of_two();
-    simulation.output.particle_arrays = {"force", "coordination"};
-    simulation.output.contact_arrays = {"gap"};
-    FrameWriter frames(folder.path());
+    const Simulation simulation = stack_of_two();
+    OutputChoice output;
+    output.particle_arrays = {"force", "coordination"};
+    output.contact_arrays = {"gap"};
+    FrameWriter frames(folder.path(), output);
     frames.write_particles(simulation);
     frames.write_contacts(simulation);
 
@@ -168,9 +172,10 @@ TEST_CASE("frames hold the arrays that are asked for, and no others", "[frames]"
 TEST_CASE("a region leaves out the spheres and contacts beside it", "[frames]")
 {
     const SceneFolder folder;
-    Simulation simulation = stack_of_two();
-    simulation.output.region = box(Vec3(-1, -1, 0.9), Vec3(1, 1, 2));
-    FrameWriter frames(folder.path());
+    const Simulation simulation = stack_of_two();
+    OutputChoice output;
+    output.region = box(Vec3(-1, -1, 0.9), Vec3(1, 1, 2));
+    FrameWriter frames(folder.path(), output);
     frames.write_particles(simulation);
     frames.write_contacts(simulation);
     const auto spheres = read_frame(folder.path() / "frames/particles_000000.vtp");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/scene_file.hpp"
-#include "scenarios/build/build_scene.hpp"
+#include "scenarios/builder/build_scene.hpp"
 #include "tests/io/scene_folder.hpp"
 
 #include <catch2/catch.hpp>

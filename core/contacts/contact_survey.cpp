@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contacts/contact_survey.hpp"
+
+#include <algorithm>
+
+namespace talus
+{
+
+void ContactSurvey::add(const TouchSums& sums)
+{
+    for (int lane = 0; lane < pack_size; ++lane) {
+        count += static_cast<std::size_t>(sums.contacts[lane]);
+        impacts += static_cast<std::size_t>(sums.impacts[lane]);
+        overlapping += static_cast<std::size_t>(sums.overlapping[lane]);
+        worst_strain = std::max(worst_strain, sums.worst_strain[lane]);
+        worst_overlap = std::max(worst_overlap, sums.worst_overlap[lane]);
+        overlap_sum += sums.overlap[lane];
+        stored_energy += sums.stored_energy[lane];
+        push_out_energy += sums.push_out_energy[lane];
+    }
+}
+
+ContactSurvey& ContactSurvey::operator+=(const ContactSurvey& other)
+{
+    count += other.count;
+    impacts += other.impacts;
+    overlapping += other.overlapping;
+    worst_strain = std::max(worst_strain, other.worst_strain);
+    worst_overlap = std::max(worst_overlap, other.worst_overlap);
+    overlap_sum += other.overlap_sum;
+    stored_energy += other.stored_energy;
+    push_out_energy += other.push_out_energy;
+    return *this;
+}
+
+void ContactSurvey::then(const ContactSurvey& next)
+{
+    const ContactSurvey before = *this;
+    *this = next;
+    worst_overlap = std::max(worst_overlap, before.worst_overlap);
+    stored_energy = before.stored_energy;
+    push_out_energy += before.push_out_energy;
+}
+
+} // namespace talus

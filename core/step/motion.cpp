@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/step/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+namespace
+{
+
+constexpr std::size_t few_spheres = 1000; ///< that one thread takes faster than several
+
+} // namespace
+
+void add_forces(State& state, const Vec3& gravity, double h)
+{
+#pragma omp parallel for schedule(static) if (state.count() > few_spheres)
+    for (std::size_t i = 0; i < state.count(); ++i) state.motion[i].velocity += h * gravity;
+    for (std::size_t i = 0; i < state.own_force.size(); ++i)
+        state.motion[i].velocity += h * state.motion[i].inverse_mass * state.own_force[i];
+}
+
+void move_spheres(State& state, double h)
+{
+#pragma omp parallel for schedule(static) if (state.count() > few_spheres)
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        Vec3& x = state.position[i];
+        Vec3& rest = state.position_rest[i];
+        const Vec3 move = h * state.motion[i].velocity + rest;
+        const Vec3 before = x;
+        x += move;
+        rest = move - (x - before);
+    }
+}
+
+double move_pistons(State& state, const std::vector<Piston>& pistons, double h)
+{
+    double work = 0.0;
+    for (std::size_t k = 0; k < pistons.size(); ++k) {
+        work += h * pistons[k].load_at(state.time) * travel_speed(pistons[k], state.pistons[k]);
+        move(pistons[k], state.pistons[k], h);
+    }
+    return work;
+}
+
+void wrap_positions(State& state, const Periodicity& periodicity)
+{
+    if (!periodicity.any()) return;
+#pragma omp parallel for schedule(static) if (state.count() > few_spheres)
+    for (std::size_t i = 0; i < state.count(); ++i) state.position[i] = periodicity.wrapped(state.position[i]);
+}
+
+void mark_leaving(State& state, const std::vector<Region>& outlets)
+{
+    for (const auto& outlet : outlets)
+#pragma omp parallel for schedule(static) if (state.count() > few_spheres)
+        for (std::size_t i = 0; i < state.count(); ++i)
+            if (outlet.contains(state.position[i])) state.leaving[i] = 1;
+}
+
+double fastest_of(const State& state, const std::vector<Flight>& flights, double h)
+{
+    double fastest = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : fastest) if (state.count() > few_spheres)
+    for (std::size_t i = 0; i < state.count(); ++i) fastest = std::max(fastest, state.motion[i].velocity.squaredNorm());
+    for (const PistonState& piston : state.pistons) fastest = std::max(fastest, piston.velocity.squaredNorm());
+    fastest = std::sqrt(fastest);
+    for (const Flight& flight : flights)
+        fastest = std::max(fastest, (1.0 - flight.instant / h) * state.motion[flight.sphere].velocity.norm());
+    return fastest;
+}
+
+} // namespace talus

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scenarios/builder/build_report.hpp"
+
+#include "core/law/impact.hpp"
+#include "scenarios/builder/meshes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <set>
+
+namespace talus
+{
+namespace
+{
+
+template <class... Numbers> std::string text(const char* format, Numbers... numbers)
+{
+    char buffer[300];
+    std::snprintf(buffer, sizeof buffer, format, numbers...);
+    return buffer;
+}
+
+/// The materials that spheres are made of, now or later.
+std::set<int> sphere_materials(const Simulation& simulation)
+{
+    std::set<int> materials(simulation.state.material.begin(), simulation.state.material.end());
+    for (const auto& pour : simulation.pours)
+        for (const auto& species : pour.mixture.species) materials.insert(species.material);
+    return materials;
+}
+
+} // namespace
+
+std::string explain_step(const StepChoice& choice, double d)
+{
+    const double automatic = choice.automatic();
+    if (choice.given)
+        return text("step %.4g ms: given by the scene (auto would be %.4g ms)", 1e3 * choice.step, 1e3 * automatic);
+    if (choice.by_gravity <= choice.by_speed)
+        return text("step %.4g ms = %.3g sqrt(d/g) for the smallest d = %.4g mm (the fastest fall, %.3g m/s, moves "
+                    "%.2g d in it)",
+            1e3 * automatic, choice.gravity_share, 1e3 * d, choice.fastest_speed, choice.fastest_speed * automatic / d);
+    return text("step %.4g ms: the fastest sphere, %.3g m/s, moves 0.1 d in it (%.3g sqrt(d/g) would be %.4g ms)",
+        1e3 * automatic, choice.fastest_speed, choice.gravity_share, 1e3 * choice.by_gravity);
+}
+
+std::string explain_model(const Model& model)
+{
+    const auto& p = model.physics;
+    const bool meshes = std::any_of(
+        model.walls.begin(), model.walls.end(), [](const Wall& w) { return std::holds_alternative<Mesh>(w.shape); });
+    std::string models = "models contact", leaves_out;
+    const auto say = [&](bool needed, const char* what) {
+        auto& list = needed ? models : leaves_out;
+        list += (list.empty() ? "" : ", ") + std::string(what);
+    };
+    say(p.friction, "friction");
+    say(p.spin, "rotation");
+    say(p.rolling, "rolling resistance");
+    say(p.restitution, "restitution");
+    say(meshes, "mesh walls");
+    say(p.moving_walls, "moving walls");
+    say(p.pistons, "walls of finite mass");
+    say(model.periodicity.any(), "periodic axes");
+    say(!model.outlets.empty(), "outlets");
+    if (model.solver.stabilisation == Stabilisation::projected)
+        say(model.solver.pressure_scaling, "scaling of pressures");
+    return models + (leaves_out.empty() ? "" : "; leaves out " + leaves_out);
+}
+
+std::string explain_world(const Box& world)
+{
+    std::string bounds;
+    for (int d = 0; d < 3; ++d) {
+        const double low = world.min[d], high = world.max[d];
+        const bool begins = std::isfinite(low), ends = std::isfinite(high);
+        bounds += std::string(d > 0 ? ", " : "") + "xyz"[d];
+        bounds += begins && ends ? text(" from %.4g to %.4g", low, high)
+                  : begins       ? text(" from %.4g up", low)
+                  : ends         ? text(" up to %.4g", high)
+                                 : " without end";
+    }
+    return bounds + ", in m";
+}
+
+std::string forecast_overlap(const Simulation& simulation)
+{
+    const auto& model = simulation.model;
+    if (model.solver.stabilisation == Stabilisation::projected)
+        return "contacts are rigid; spheres that overlap are moved apart after each step";
+    const double h = model.time_step, d = model.mean_diameter;
+    const auto n = model.solver.min_sweeps;
+    double density = 0.0, stiffness = infinity;
+    for (const int a : sphere_materials(simulation)) {
+        density = std::max(density, model.materials.list[static_cast<std::size_t>(a)].density);
+        for (const int b : sphere_materials(simulation))
+            stiffness = std::min(stiffness, model.materials.between(a, b).stiffness);
+    }
+    const double inverse_mass_sum = 2.0 / (density * std::numbers::pi / 6.0 * d * d * d);
+    stiffness = std::min(stiffness, 4.0 * upsilon / (sigma_per_sweep / n * inverse_mass_sum * h * h));
+    const double of_layer = 0.4 * model.gravity.norm() * h * h / (n * d);
+    return text("contacts of two spheres are at most %.3g N/m stiff; a bed Z diameters high overlaps by %.2g Z d on "
+                "average, twice that at its bottom",
+        stiffness, of_layer);
+}
+
+std::vector<std::string> warnings_of(const scene::Scene& scene, const StepChoice& choice, const Model& model)
+{
+    constexpr double far_above = 10.0;
+    constexpr double wide = 1000.0;
+    constexpr double tight = 1.5; // at 1.4 stacks of a lattice stood, at 1.8 they fell
+    std::vector<std::string> warnings;
+    if (choice.given && choice.step > far_above * choice.automatic())
+        warnings.push_back(text("the step of %.4g ms is %.3g times the automatic one: overlaps grow with its square",
+            1e3 * choice.step, choice.step / choice.automatic()));
+    const bool stands = !scene.world.rotation && model.physics.friction && !model.gravity.isZero();
+    for (std::size_t k = 0; k < scene.fill.size(); ++k)
+        if (stands && scene.fill[k].arrangement == "lattice" && scene.fill[k].spacing < tight)
+            warnings.push_back(
+                text("fill[%d]: without rotation the stacks of so tight a lattice stay upright; give it a "
+                     "'spacing' of 1.8, or arrange it at random",
+                    static_cast<int>(k)));
+    for (std::size_t k = 0; k < scene.fill.size(); ++k) {
+        const auto& fill = scene.fill[k];
+        const bool is_packing = fill.arrangement == "lattice" || fill.arrangement == "random";
+        if (is_packing && fill.count == 0 && fill.mass == 0.0 && fill.filling == 0.0)
+            warnings.push_back(
+                text("fill[%d] has no spheres: it has no 'count', 'mass' or 'filling'", static_cast<int>(k)));
+    }
+    for (const Wall& wall : model.walls) {
+        const Box box = bounds(wall.shape);
+        const double size = box.empty() ? 0.0 : box.extent().maxCoeff();
+        if (size > wide * model.mean_diameter)
+            warnings.push_back(
+                "wall '" + wall.name + "' " +
+                text("is %.4g m long, %.2g diameters of a sphere", size, size / model.mean_diameter) +
+                (std::holds_alternative<Mesh>(wall.shape) ? "; an STL file in millimetres needs scale = 0.001" : ""));
+    }
+    for (const auto& table : scene.wall)
+        if (std::string left_out = left_out_of_mesh(table); !left_out.empty()) warnings.push_back(std::move(left_out));
+    return warnings;
+}
+
+} // namespace talus

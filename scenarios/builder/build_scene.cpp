@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scenarios/builder/build_scene.hpp"
+
+#include "scenarios/builder/accuracy.hpp"
+#include "scenarios/builder/checks.hpp"
+#include "scenarios/builder/materials.hpp"
+#include "scenarios/builder/sensors.hpp"
+#include "scenarios/builder/walls.hpp"
+#include "scenarios/builder/world.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace talus
+{
+namespace
+{
+
+/// Reports, columns and `--set` tell the tables of a list apart by their names, where they have one.
+template <class Table> void refuse_shared_names(const std::vector<Table>& tables, const std::string& list)
+{
+    std::map<std::string, std::size_t> first;
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+        const auto [known, is_new] = first.try_emplace(tables[k].name, k);
+        if (!is_new && !tables[k].name.empty())
+            throw SceneError(key_path(list, k, "name"), "two " + list + "s are called '" + tables[k].name + "'",
+                key_path(list, known->second, "name"));
+    }
+}
+
+void refuse_shared_names(const scene::Scene& scene)
+{
+    refuse_shared_names(scene.wall, "wall");
+    refuse_shared_names(scene.pour, "pour");
+    refuse_shared_names(scene.outlet, "outlet");
+    refuse_shared_names(scene.sensor, "sensor");
+}
+
+OutputChoice build_output(const scene::OutputTable& table)
+{
+    OutputChoice choice{table.particle_arrays, table.contact_arrays, table.contact_threshold, {}};
+    if (table.region.shape != "everything") choice.region = require_region(table.region, "output.region");
+    return choice;
+}
+
+std::vector<Region> build_outlets(const scene::Scene& scene)
+{
+    std::vector<Region> outlets;
+    for (std::size_t k = 0; k < scene.outlet.size(); ++k)
+        outlets.push_back(require_region(scene.outlet[k].region, key_path("outlet", k, "region")));
+    return outlets;
+}
+
+/// The constant part of the simulation, but for what the spheres decide when they have their places: step, speed limit
+/// and solver.
+Model build_model(const scene::Scene& scene, const Materials& materials, const std::vector<Fill>& fills,
+    const std::vector<Pour>& pours)
+{
+    Model model;
+    model.gravity = scene.world.gravity;
+    model.materials = materials;
+    find_diameters(model, fills, pours);
+    model.periodicity = build_periodicity(scene.world, model.max_diameter);
+    model.walls = build_walls(scene, materials, model.periodicity, model.mean_diameter);
+    model.pistons = build_pistons(scene, model.walls, model.periodicity);
+    model.physics.wall_loads =
+        std::ranges::any_of(scene.sensor, [](const auto& own) { return own.kind == "wall_force"; });
+    model.physics = model.needed_physics(scene.world.rotation);
+    if (model.physics.rolling && !scene.world.rotation)
+        throw SceneError("world.rotation", "spheres that do not turn have no rolling resistance: leave out "
+                                           "'rolling_friction', or let them turn");
+    model.outlets = build_outlets(scene);
+    model.world = build_world(scene, model, fills, pours);
+    model.contents = build_contents(model, fills, pours);
+    require_inside_world(fills, pours, model.world);
+    return model;
+}
+
+} // namespace
+
+BuiltScene build_scene(const scene::Scene& scene)
+{
+    refuse_shared_names(scene);
+
+    // Every table is read once, in the order of the scene.
+    Simulation simulation;
+    Model& model = simulation.model;
+    const AccuracyChoice accuracy = choose_accuracy(scene);
+    simulation.duration = scene.time.duration;
+    const SolverSettings solver = build_solver(scene.solver, accuracy.setting);
+    OutputChoice output = build_output(scene.output);
+    simulation.incident_policy = {scene.world.on_escape == "remove",
+        solver.stabilisation == Stabilisation::matched || scene.solver.on_no_solution == "go_on"};
+    const Materials materials = build_materials(scene);
+    const std::vector<Fill> fills = build_fills(scene, materials);
+    simulation.pours = build_pours(scene, materials);
+    model = build_model(scene, materials, fills, simulation.pours);
+    simulation.sensors = build_sensors(scene, model);
+
+    // Spheres take their places among the walls. One generator gives all fills theirs, and then each pour its seed.
+    Random random(static_cast<std::uint64_t>(scene.seed));
+    place_spheres(simulation.state, fills, model, random);
+    for (Pour& pour : simulation.pours) pour.random.seed(random());
+    simulation.state.pistons.resize(model.pistons.size());
+
+    // The spheres decide what the scene leaves open of the solver and the step.
+    const SolverChoice choice = complete_solver(solver, scene, simulation);
+    model.solver = choice.settings;
+    const StepChoice step = choose_step(scene, simulation, accuracy.setting.step_factor * choice.step_factor);
+    model.time_step = step.step;
+    model.speed_limit = step.speed_limit;
+    model.solver.push_out_speed = push_out_speed(scene.solver, model);
+
+    BuildReport report{accuracy.explanation, choice.explanation, explain_step(step, model.min_diameter),
+        explain_model(model), explain_world(model.world), forecast_overlap(simulation),
+        warnings_of(scene, step, model)};
+    return {std::move(simulation), std::move(report), std::move(output)};
+}
+
+} // namespace talus

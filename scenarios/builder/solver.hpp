@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/simulation/simulation.hpp"
+#include "scenarios/scene.hpp"
+
+#include <string>
+
+namespace talus
+{
+
+/// What decides how wrong a run is, and how long it takes.
+struct RunSetting {
+    double step_factor = 1.0; ///< on the time step that gravity allows (step_choice.hpp)
+    int min_sweeps = 0;       ///< 0: the usual number
+    double tolerance = 1e-2;
+};
+
+/// The settings, and why they are not the usual ones.
+struct SolverChoice {
+    SolverSettings settings;
+    double step_factor = 1.0; ///< on the automatic step
+    std::string explanation;  ///< one line; empty where they are
+};
+
+/// The law that a scene names; where it leaves it open, the usual one.
+Stabilisation stabilisation_of(const scene::SolverTable& table);
+
+/// The settings of the solver as far as the table says, names replaced by numbers.
+/// @param setting for what the scene leaves open
+/// @throws SceneError where the sweeps have no room, and where pressure scaling is asked for with `matched`, whose
+/// contacts are too soft for it to matter
+SolverSettings build_solver(const scene::SolverTable& table, const RunSetting& setting);
+
+/// These settings with what the scene leaves to the spheres.
+///
+/// Where spheres stand 150 mean diameters high, or one has 50 000 times the mass of another, contacts are rigid if
+/// nothing flows or moves as it is told. Where one has 500 times the mass of another, or there is restitution and no
+/// gravity, the tolerance is 1e-3; from 800 times on the step is smaller. Not so where the scene says what it wants, or
+/// asks for an accuracy.
+///
+/// Pressure is scaled with `projected` in a bed of forty grains or more, or where something rests on grains of a tenth
+/// of its mass or less; where no axis is periodic. Beds of a hundred grains or more then take at least six sweeps a
+/// step, unless the scene says how many.
+/// @param simulation its spheres are there, and its model has all but the solver
+SolverChoice complete_solver(SolverSettings solver, const scene::Scene& scene, const Simulation& simulation);
+
+/// The cap on the speed with which overlap is undone: the scene's, or what follows from gravity, or else from the step.
+double push_out_speed(const scene::SolverTable& table, const Model& model);
+
+} // namespace talus
