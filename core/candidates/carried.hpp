@@ -20,7 +20,9 @@ struct alignas(32) CarriedContact {
 
     void persist(Archive& archive) { archive(impulse, compression, touch); }
 };
-static_assert(sizeof(CarriedContact) == 32);
+static_assert(sizeof(CarriedContact) == 32 && std::is_standard_layout_v<CarriedContact> &&
+              offsetof(CarriedContact, impulse) == 0 && offsetof(CarriedContact, compression) == 24 &&
+              offsetof(CarriedContact, touch) == 28 && sizeof(TouchRecord) == 1);
 
 /// What contacts hand on, by slot: a slot is a listed pair, or one of those of a listed wall.
 struct CarriedImpulses {

@@ -4,6 +4,7 @@
 #include "core/base/periodicity.hpp"
 #include "core/base/vector.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct IndexPair {
 private:
     std::uint64_t key() const { return (static_cast<std::uint64_t>(a) << 32U) + static_cast<std::uint32_t>(b); }
 };
+static_assert(sizeof(IndexPair) == 8 && offsetof(IndexPair, a) == 0 && offsetof(IndexPair, b) == 4); // two numbers
 
 /// All pairs of boxes that meet, touching included, across periodic borders too, each once and in no particular order
 /// (CGAL's box intersection, slab by slab, the slabs at the same time).

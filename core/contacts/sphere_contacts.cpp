@@ -11,9 +11,6 @@ namespace talus
 namespace
 {
 
-static_assert(sizeof(TouchRecord) == 1 && sizeof(IndexPair) == 2 * sizeof(std::int32_t) &&
-              sizeof(ContactLaw) == 4 * sizeof(double));
-
 /// So wide that two spheres of which one comes within reach of the other have balls that meet.
 ReachBall reach_ball(const State& state, std::size_t i, const StepConstants& step)
 {

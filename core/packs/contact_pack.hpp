@@ -14,23 +14,30 @@ inline constexpr int pack_size = 8;
 
 /// Eight contacts, no two of which share a sphere, so that their order does not matter: all that a sweep streams, lane
 /// beside lane, 104 B a contact. They are filled from lane 0 on; a lane that is empty has a = b = −1, and zeros. A lane
-/// that holds two spheres which do not touch has zeros for its numbers from `impulse` on, but for μ: a sweep changes
-/// nothing by it.
+/// that holds two spheres which do not touch has zeros for what the laws make: a sweep changes nothing by it.
 struct alignas(64) ContactPack {
-    std::int32_t a[pack_size];      ///< sphere
-    std::int32_t b[pack_size];      ///< sphere or, in packs of wall contacts, wall
-    double normal[3][pack_size];    ///< n, unit, from b to a
-    double impulse[3][pack_size];   ///< λ [N s] on a
+    // Placed by assembly (PackFiller), read by all.
+    std::int32_t a[pack_size]; ///< sphere
+    std::int32_t b[pack_size]; ///< sphere or, in packs of wall contacts, wall
+
+    // Found by detection and recalled from materials, read by laws and sweeps.
+    double normal[3][pack_size]; ///< n, unit, from b to a
+    double arm_scale[pack_size]; ///< s
+    double friction[pack_size];  ///< μ
+
+    // λ⁰ of the laws; sweeps change it, and `hand_on` reads it.
+    double impulse[3][pack_size]; ///< λ [N s] on a
+
+    // Made by the laws, changed beside impacts (TileContacts::set_law), read by sweeps.
     double target[pack_size];       ///< q_n [m/s]
-    double arm_scale[pack_size];    ///< s
-    double friction[pack_size];     ///< μ
     double parting[pack_size];      ///< u_n that it asks for at most [m/s]
     double normal_mass[pack_size];  ///< 1 / (W + Σ_n) [kg]
     double tangent_mass[pack_size]; ///< 1 / (W (1 + 5/2 s²)) [kg]
 };
 static_assert(sizeof(ContactPack) == 832);
 
-/// What a step knows of them besides their solve, and what they hand on to the next one.
+/// What a step knows of them besides their solve: made by `take_down` of what the laws have found, changed beside
+/// impacts, read by `hand_on` after the solve, and by all that look at contacts.
 struct alignas(64) RecordPack {
     double gap[pack_size];              ///< g at the beginning of the step [m]; < 0 is overlap
     double wall_level[pack_size];       ///< n·x at which the gap to the wall is zero after the step [m]; at walls
@@ -50,14 +57,14 @@ struct alignas(64) RecordPack {
     bool holds(std::size_t lane) const { return (in_problem >> lane & 1U) != 0; }
 };
 
-/// Their rolling rows.
+/// Their rolling rows: made by make_rolling_rows, swept like contacts.
 struct alignas(64) RollingPack {
     double impulse[3][pack_size]; ///< angular impulse on a [N m s], at right angles to n
     double reach[pack_size];      ///< μ_r R* [m]
     double inertia[pack_size];    ///< 1 / (1/I_a + 1/I_b) [kg m²]
 };
 
-/// How their walls move, the mean over the step.
+/// How their walls move, the mean over the step: found by detection, read by sweeps.
 struct alignas(64) WallPack {
     double velocity[3][pack_size]; ///< [m/s]
     double spin[3][pack_size];     ///< [rad/s]

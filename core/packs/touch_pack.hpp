@@ -17,32 +17,35 @@ struct StepConstants {
     bool is_periodic;
 };
 
-/// Up to eight touches on their way to contacts: what detection has found, lane beside lane, and what the laws make of
-/// it. The contact itself, with the numbers of its solve, stands in a ContactPack beside it: found there are a, b,
-/// normal, arm_scale and friction, and the rest is made.
+/// Up to eight touches on their way to contacts, lane beside lane. The contact itself stands in a ContactPack beside
+/// it.
 struct alignas(64) TouchPack {
-    double gap[pack_size];
+    // Found by detection (`detect`, WallAssembly::add), read by the laws (`event_of`).
+    double gap[pack_size];              ///< g [m]
     double diameter[pack_size];         ///< of the smaller sphere [m]
     double reduced_radius[pack_size];   ///< r_a r_b/(r_a + r_b); at a wall r_a [m]
     double inverse_mass_sum[pack_size]; ///< W [1/kg]
     double u_n[pack_size];              ///< of v⁽⁰⁾ [m/s] …
     double u_n_before[pack_size];       ///< … against the velocity of the wall in the step before [m/s]
     double closes[pack_size];           ///< when the gap does so, with v⁽¹⁾ [s]
-    double restitution[pack_size];      ///< e
-    double stiffness[pack_size];        ///< k [N/m]
-    double carried[3][pack_size];       ///< impulse of the step before [N s] …
-    double compression[pack_size];      ///< … what its spring has handed on, then κ of this step [m]
-    std::int64_t struck[pack_size];     ///< … it was an impact: −1 for yes, 0 for no
-    std::int64_t pushed[pack_size];     ///< … it had a gap: −1 for yes, 0 for no
 
-    std::int64_t kind[pack_size];      ///< made: ContactKind …
-    double compliance[pack_size];      ///< … Σ_n [1/kg] …
-    double spring[pack_size];          ///< … and that of its spring, also where it is rigid [1/kg]
-    double held[pack_size];            ///< … what that held before pushing out puts in more [m²] …
-    double push[pack_size];            ///< … of NormalLaw [m/s] …
-    double strain[pack_size];          ///< … overlap, of that with which it yields, beyond that; else 0 …
-    double impact_size[pack_size];     ///< … of an impact [N s], else 0
-    double stored_energy[pack_size];   ///< … in its spring [J] …
+    // Recalled from materials and slots (`recall`, WallAssembly::add), read by the laws.
+    double restitution[pack_size];  ///< e
+    double stiffness[pack_size];    ///< k [N/m]
+    double carried[3][pack_size];   ///< impulse of the step before [N s]
+    std::int64_t struck[pack_size]; ///< it was an impact then: −1 for yes, 0 for no
+    std::int64_t pushed[pack_size]; ///< it had a gap then: −1 for yes, 0 for no
+    double compression[pack_size];  ///< what its spring has handed on; the laws make κ of it [m]
+
+    // Made by the laws (`apply_law`), read by `take_down`, which puts it into a RecordPack and into sums.
+    std::int64_t kind[pack_size];      ///< ContactKind
+    double compliance[pack_size];      ///< Σ_n [1/kg]
+    double spring[pack_size];          ///< that of its spring, also where it is rigid [1/kg]
+    double held[pack_size];            ///< what that held before pushing out puts in more [m²]
+    double push[pack_size];            ///< of NormalLaw [m/s]
+    double strain[pack_size];          ///< overlap, of that with which it yields, beyond that; else 0
+    double impact_size[pack_size];     ///< of an impact [N s], else 0
+    double stored_energy[pack_size];   ///< in its spring [J] …
     double push_out_energy[pack_size]; ///< … of which pushing out has put in so much [J]
 };
 
@@ -51,6 +54,7 @@ struct ReachBall {
     double center[3];
     double radius;
 };
+static_assert(sizeof(ReachBall) == 4 * sizeof(double) && offsetof(ReachBall, radius) == 3 * sizeof(double));
 
 /// What is known of all spheres, and of what the contacts of a tile carry, as plain numbers.
 struct SphereNumbers {

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 namespace talus
@@ -39,7 +38,6 @@ struct TilePasses {
         : kernel(fastest_kernels().sweep[row_variant(physics)]), contacts(network.contacts),
           motion(reinterpret_cast<double*>(spheres.data()))
     {
-        static_assert(sizeof(Motion) == 8 * sizeof(double) && std::is_standard_layout_v<Motion>);
     }
 
     SweepSums relax(std::size_t tile, double relaxation) const

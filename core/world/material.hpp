@@ -3,6 +3,7 @@
 
 #include "core/base/vector.hpp"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct ContactLaw {
     double rolling_friction = 0.0; ///< μ_r: |rolling torque| ≤ μ_r R* λ_n/h, R* = r₁r₂/(r₁+r₂), at a wall r
     double stiffness = infinity;   ///< k of the normal contact [N/m]; infinity: rigid
 };
+static_assert(sizeof(ContactLaw) == 32 && offsetof(ContactLaw, friction) == 0 &&
+              offsetof(ContactLaw, restitution) == 8 &&
+              offsetof(ContactLaw, stiffness) == 24); // kernels read it as four numbers
 
 struct Material {
     std::string name;

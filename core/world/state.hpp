@@ -5,7 +5,9 @@
 #include "core/base/vector.hpp"
 #include "core/world/piston.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace talus
@@ -23,7 +25,9 @@ struct alignas(64) Motion {
 
     void persist(Archive& archive) { archive(velocity, inverse_mass, rim_velocity, radius); }
 };
-static_assert(sizeof(Motion) == 64);
+static_assert(sizeof(Motion) == 64 && std::is_standard_layout_v<Motion> && offsetof(Motion, velocity) == 0 &&
+              offsetof(Motion, inverse_mass) == 24 && offsetof(Motion, rim_velocity) == 32 &&
+              offsetof(Motion, radius) == 56); // kernels read it as eight numbers
 
 /// Inverse moment of inertia of a solid sphere times m r²: I = 2/5 m r².
 inline constexpr double inverse_inertia_factor = 2.5;
