@@ -23,7 +23,7 @@ constexpr double hat_spacing = 4.0;        ///< mean diameters …
 constexpr double widest_grain = 1.0;       ///< … and at least so many largest ones: a sphere must fit into a cell
 constexpr double least_growth = -0.8;      ///< α of a node: impulses stay positive …
 constexpr double most_growth = 4.0;        ///< … and what carried little does not run away
-constexpr double coarse_tolerance = 1e-2;  ///< of the coarse system, on |r|
+constexpr double coarse_tolerance = 1e-3;  ///< of the coarse system, on |r|
 constexpr int most_coarse_iterations = 30; ///< 10 are too few, more gain nothing
 
 Box box_of(const std::vector<Vec3>& positions)
