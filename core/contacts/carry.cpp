@@ -25,7 +25,7 @@ ContactOutcome carry(TileContacts& contacts, CarriedImpulses& carried, const Sta
         for (; deep != 0; deep &= deep - 1) {
             const std::size_t k = pack_size * p + static_cast<std::size_t>(std::countr_zero(deep));
             const Vec3 u = state.motion[contacts.a(k)].velocity - velocity_of_b(k); // solved or not
-            const TouchRecord touch = noted(contacts.touch(k), contacts.kind(k), contacts.normal_impulse(k) > 0.0,
+            const TouchRecord touch = noted(contacts.touch(k), contacts.kind(k), contacts.is_loaded(k),
                 -contacts.gap(k) / law.min_diameter, u.dot(contacts.normal(k)), law);
             contacts.set_touch(k, touch);
             carried.contact[contacts.slot(k)].touch = touch;

@@ -6,20 +6,6 @@
 namespace talus
 {
 
-void ContactSurvey::add(const TouchSums& sums)
-{
-    for (int lane = 0; lane < pack_size; ++lane) {
-        count += static_cast<std::size_t>(sums.contacts[lane]);
-        impacts += static_cast<std::size_t>(sums.impacts[lane]);
-        overlapping += static_cast<std::size_t>(sums.overlapping[lane]);
-        worst_strain = std::max(worst_strain, sums.worst_strain[lane]);
-        worst_overlap = std::max(worst_overlap, sums.worst_overlap[lane]);
-        overlap_sum += sums.overlap[lane];
-        stored_energy += sums.stored_energy[lane];
-        push_out_energy += sums.push_out_energy[lane];
-    }
-}
-
 ContactSurvey& ContactSurvey::operator+=(const ContactSurvey& other)
 {
     count += other.count;
@@ -40,6 +26,21 @@ void ContactSurvey::then(const ContactSurvey& next)
     worst_overlap = std::max(worst_overlap, before.worst_overlap);
     stored_energy = before.stored_energy;
     push_out_energy += before.push_out_energy;
+}
+
+ContactSurvey survey_of(const TouchSums& sums)
+{
+    ContactSurvey survey;
+    for (int lane = 0; lane < pack_size; ++lane)
+        survey += {.count = static_cast<std::size_t>(sums.contacts[lane]),
+            .overlapping = static_cast<std::size_t>(sums.overlapping[lane]),
+            .impacts = static_cast<std::size_t>(sums.impacts[lane]),
+            .worst_strain = sums.worst_strain[lane],
+            .worst_overlap = sums.worst_overlap[lane],
+            .overlap_sum = sums.overlap[lane],
+            .stored_energy = sums.stored_energy[lane],
+            .push_out_energy = sums.push_out_energy[lane]};
+    return survey;
 }
 
 } // namespace talus

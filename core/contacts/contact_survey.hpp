@@ -20,12 +20,13 @@ struct ContactSurvey {
     double push_out_energy = 0.0; ///< … of which pushing out has put in so much in this step [J]
 
     double mean_overlap() const { return overlapping ? overlap_sum / static_cast<double>(overlapping) : 0.0; } ///< [m]
-    /// Those of a tile.
-    void add(const TouchSums& sums);
     /// The contacts of another tile of the same step.
     ContactSurvey& operator+=(const ContactSurvey& other);
     /// The next sub-step: the worst of all, the contacts of the last, the energy at the beginning.
     void then(const ContactSurvey& next);
 };
+
+/// What the touches of a tile add up to.
+ContactSurvey survey_of(const TouchSums& sums);
 
 } // namespace talus

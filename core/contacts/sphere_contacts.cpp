@@ -77,9 +77,7 @@ ContactSurvey SphereAssembly::make(const Tile& tile, const SphereNumbers& sphere
         if (contacts.has_rolling()) make_rolling_rows(contacts, p, false, tile.carried.rolling_impulse, state_, model_);
         note_impacts(contacts.pack(p), impacts, state_.motion, network_.contacts.impacts);
     }
-    ContactSurvey survey;
-    survey.add(sums);
-    return survey;
+    return survey_of(sums);
 }
 
 } // namespace talus

@@ -124,6 +124,7 @@ public:
     Vec3 normal(std::size_t k) const { return get(packs_[k / pack_size].normal, k % pack_size); }
     Vec3 impulse(std::size_t k) const { return get(packs_[k / pack_size].impulse, k % pack_size); }
     double normal_impulse(std::size_t k) const { return impulse(k).dot(normal(k)); }
+    bool is_loaded(std::size_t k) const { return normal_impulse(k) > 0.0; }
     double gap(std::size_t k) const { return records_[k / pack_size].gap[k % pack_size]; }
     double wall_level(std::size_t k) const { return records_[k / pack_size].wall_level[k % pack_size]; }
     std::uint32_t slot(std::size_t k) const { return records_[k / pack_size].slot[k % pack_size]; }

@@ -64,9 +64,7 @@ ContactSurvey WallAssembly::make()
             impacts_[pack.a[lane]].note(impacts.size[lane], 0.0); // nothing is heavier than what stands still
         }
     }
-    ContactSurvey survey;
-    survey.add(sums);
-    return survey;
+    return survey_of(sums);
 }
 
 } // namespace talus

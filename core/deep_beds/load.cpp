@@ -68,7 +68,7 @@ template <bool wall, class R>
 Load* find_tile_loads(Load* next, TileContacts& contacts, State& state, const HatGrid& grid)
 {
     for (const std::size_t k : contacts.indices()) {
-        if (!is_loaded(contacts, k)) continue;
+        if (!contacts.is_loaded(k)) continue;
         *next = load_of<wall, R>(contacts, contacts.span(), k, state.motion.data());
         next++->place = place_of(contacts, k, state, grid);
     }
@@ -78,7 +78,7 @@ Load* find_tile_loads(Load* next, TileContacts& contacts, State& state, const Ha
 std::size_t count_loads(const TileContacts& contacts)
 {
     return static_cast<std::size_t>(
-        std::ranges::count_if(contacts.indices(), [&](std::size_t k) { return is_loaded(contacts, k); }));
+        std::ranges::count_if(contacts.indices(), [&](std::size_t k) { return contacts.is_loaded(k); }));
 }
 
 /// For its contacts a piston is a wall that moves as it does.

@@ -41,12 +41,6 @@ std::vector<std::vector<std::uint32_t>> networks_of(const Loads& loads, std::siz
 /// Some of them.
 Loads part_of(const Loads& loads, const std::vector<std::uint32_t>& places);
 
-/// Whether the contact carries anything.
-inline bool is_loaded(const TileContacts& contacts, std::size_t k)
-{
-    return contacts.impulse(k).dot(contacts.normal(k)) > 0.0;
-}
-
 /// What the contacts carry after the warm start, at these velocities. Tiles in parallel.
 Loads find_loads(
     ContactNetwork& network, const PistonGroup& pistons, State& state, const Model& model, const HatGrid& grid);

@@ -85,7 +85,7 @@ Growth find_growth(const Loads& loads, const HatGrid& grid, const State& state, 
 template <bool wall, class R> const double* scale(TileContacts& contacts, const double* share, Motion* motion)
 {
     for (const std::size_t k : contacts.indices()) {
-        if (!is_loaded(contacts, k)) continue;
+        if (!contacts.is_loaded(k)) continue;
         whole_contact<wall, R>(contacts.span(), k, motion).grow(packs::Numbers<1>{*share});
         ++share;
     }

@@ -59,6 +59,7 @@ template <class N> [[gnu::always_inline]] inline N elastic_overlap(const Contact
     return step.rigid ? rigid_yield_overlap * event.diameter : yield_overlap * event.reduced_radius;
 }
 
+/// Whether it overlaps by more: then it yields, unless it is an impact.
 template <class N>
 [[gnu::always_inline]] inline Answer<N> overstrained(const ContactEvent<N>& event, const LawOfStep& step)
 {

@@ -63,10 +63,11 @@ inline TouchRecord noted(
     else
         touch.note(is_loaded || kind == ContactKind::yielding ? TouchRecord::loaded : TouchRecord::unloaded);
     const double pressed = law.rigid ? rigid_yield_overlap : pressed_overlap;
+    const bool deepens = is_loaded && u_n<0.0, is_deep = overlap> jamming_overlap;
     if (overlap <= pressed && !(touch.is_jammed() && overlap > jammed_overlap))
         touch.note_hold();
     else
-        touch.note_yield(is_loaded && u_n<0.0, overlap> jamming_overlap);
+        touch.note_yield(deepens, is_deep);
     return touch;
 }
 

@@ -64,8 +64,8 @@ std::vector<ContactLine> loaded_contacts(const Simulation& simulation, const Out
         const Vec3& x = state.position[c.a];
         const Vec3 point = x - state.radius(c.a) * c.normal;
         if (shows(output, point))
-            lines.push_back({x, x - length * c.normal, c.impulse / h, c.impulse.dot(c.normal) / h, c.gap, state.id[c.a],
-                id_b, wall});
+            lines.push_back(
+                {x, x - length * c.normal, c.impulse / h, c.normal_impulse() / h, c.gap, state.id[c.a], id_b, wall});
     };
     for_each_loaded_sphere_contact(simulation.network,
         [&](const Contact& c) { add(c, state.radius(c.a) + state.radius(c.b) + c.gap, state.id[c.b], -1); });

@@ -33,7 +33,7 @@ const char* name(Stabilisation law)
     return law == Stabilisation::matched ? "matched" : "projected";
 }
 
-std::string told(const Vec3& v)
+std::string in_words(const Vec3& v)
 {
     return text("(%.9g, %.9g, %.9g)", v.x(), v.y(), v.z());
 }
@@ -76,8 +76,8 @@ Fault pair_in_flight(Draw& draw)
     return text("two spheres meet in flight, %s, e %.3g, masses 1 : %.4g, radii 1 : %.4g, gravity %d, step %.3g s\n"
                 "  they meet with %.4g m/s, %.4g m/s of it along the normal, after %.3g steps; error %.2g of the speed",
                name(law), e, ratio, size, gravity, h, speed, -u.dot(n), t / h, error) +
-           "\n  first " + told(world.velocity(0)) + " for " + told(a) + ", second " + told(world.velocity(1)) +
-           " for " + told(b);
+           "\n  first " + in_words(world.velocity(0)) + " for " + in_words(a) + ", second " +
+           in_words(world.velocity(1)) + " for " + in_words(b);
 }
 
 /// A sphere meets a plane, which may lie at any angle.
@@ -283,7 +283,7 @@ Drop any_drop(Draw& draw, int fewest, int most, double greatest_ratio)
     return drop;
 }
 
-std::string told(const Drop& drop)
+std::string in_words(const Drop& drop)
 {
     return text("%s, a sphere of mass %.4g (%s) falls with %.4g m/s on %d beads of mass 1 at rest, phase %.4g",
         name(drop.law), drop.ratio, drop.large ? "same density" : "same size", drop.speed, drop.beads, drop.phase);
@@ -327,7 +327,7 @@ Fault dead_drop_on_one(Draw& draw)
     const Drop drop = any_drop(draw, 0, 1, 1000);
     const double back = rebound(drop, 0.0);
     if (back <= on_floor_or_bead(drop.beads > 0 ? drop.ratio : 1.0)) return {};
-    return told(drop) + text(": e 0, and %.4f of its speed comes back", back);
+    return in_words(drop) + text(": e 0, and %.4f of its speed comes back", back);
 }
 
 Fault dead_drop_on_column(Draw& draw)
@@ -335,7 +335,7 @@ Fault dead_drop_on_column(Draw& draw)
     const Drop drop = any_drop(draw, 4, 8, 100);
     const double back = rebound(drop, 0.0);
     if (back <= 0.1) return {};
-    return told(drop) + text(": e 0, and %.4f of its speed comes back", back);
+    return in_words(drop) + text(": e 0, and %.4f of its speed comes back", back);
 }
 
 Fault live_drop_on_one(Draw& draw)
@@ -343,7 +343,7 @@ Fault live_drop_on_one(Draw& draw)
     const Drop drop = any_drop(draw, 1, 1, 10);
     const double e = draw.uniform(0.05, 1), back = rebound(drop, e);
     if (std::abs(back - e) <= 0.15) return {};
-    return told(drop) + text(": e %.4g, and %.4f of its speed comes back", e, back);
+    return in_words(drop) + text(": e %.4g, and %.4f of its speed comes back", e, back);
 }
 
 /// Rigid beads, one on the other, bear what is much heavier as one.
@@ -354,7 +354,7 @@ Fault live_drop_on_rigid_column(Draw& draw)
     drop.ratio = draw.log_uniform(11, drop.beads == 1 ? 1000 : 100);
     const double e = any_restitution(draw), back = rebound(drop, e);
     if (std::abs(back - e) <= 0.15) return {};
-    return told(drop) + text(": e %.4g, and %.4f of its speed comes back", e, back);
+    return in_words(drop) + text(": e %.4g, and %.4f of its speed comes back", e, back);
 }
 
 /// More comes back where e is greater.
@@ -371,7 +371,7 @@ Fault rising(Draw& draw)
         row += text(" %g: %.3f", e, back);
     }
     if (most <= 0.02) return {};
-    return told(drop) + text(": falls by %.3f where e rises. What comes back, by e:", most) + row;
+    return in_words(drop) + text(": falls by %.3f where e rises. What comes back, by e:", most) + row;
 }
 
 } // namespace
