@@ -386,7 +386,7 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
     CommandLine line;
     CLI::App app("Granular dynamics: spheres in frictional contact.", "talus");
     app.set_version_flag("--version", "talus " TALUS_VERSION " (" TALUS_LIBRARIES ")");
-    app.require_subcommand(0, 1); // none at all is told below, better than by CLI11
+    app.require_subcommand(0, 1); // none at all is reported below, better than by CLI11
     app.footer("Example: talus run hopper");
     add_new(app, line);
     add_run(app, line);

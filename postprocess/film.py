@@ -30,7 +30,7 @@ class Film:
     def __init__(self, path, size, rate):
         self.path = path
         self.unfinished = path.with_name(f".{path.name}.unfinished")
-        self.unfinished.touch()  # what forbids it is told here, in the words of the system
+        self.unfinished.touch()  # what forbids it is reported here, in the words of the system
         command = ["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}",
                    "-r", f"{rate:g}", "-i", "-", *ENCODERS[path.suffix.lower()], str(self.unfinished)]
         self.ffmpeg = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)

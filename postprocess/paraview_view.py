@@ -12,7 +12,7 @@ import shutil
 import sys
 from pathlib import Path
 
-# The script starts ParaView, in which it runs again; there it gets no arguments, but is told by these.
+# The script starts ParaView, in which it runs again; there it gets no arguments, but reads these.
 RUN, PICTURE, HOME = "TALUS_VIEW_RUN", "TALUS_VIEW_PICTURE", "TALUS_VIEW_HOME"
 simple = None
 if RUN in os.environ:

@@ -115,7 +115,7 @@ def handler_for(watched, token):
 
 
 def serve_until_it_is_over(server, watched):
-    """Serves until the run has ended, and a page that is open has been told so."""
+    """Serves until the run has ended, and a page that is open knows."""
     threading.Thread(target=server.serve_forever, daemon=True).start()
     while status_of(watched.run) == "running":
         time.sleep(0.2)

@@ -78,7 +78,7 @@ struct SolverTable {
             "least number of sweeps in a step; 0: what accuracy picks, else 2 with matched, 3 with projected, 6 where "
             "pressures are scaled in a bed of a hundred grains or deeper");
         key("max_sweeps", self.max_sweeps, between(1, 1000000), "",
-            "sweeps after which a step goes on unconverged, which is counted and told");
+            "sweeps after which a step goes on unconverged, which is counted and reported");
         key("relaxation", self.relaxation, between(0.5, 1.6), "",
             "of the sweeps after the least number, without friction and with matched of all but the last of those too, "
             "but where pressures are scaled; above 1 they go farther than each contact asks for, by which fast flows "

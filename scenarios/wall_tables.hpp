@@ -99,7 +99,8 @@ struct WallTable {
         key("motion", self.motion, any(), "",
             "how the wall moves: one or more parts [[wall.motion]], each of which moves what comes of those before it");
         key("mass", self.mass, only_for(bounded, or_infinite(above(0.0))), "kg",
-            "finite: a piston, which its weight, its load and the spheres move; inf: the wall moves as told, whatever "
+            "finite: a piston, which its weight, its load and the spheres move; inf: the wall moves as prescribed, "
+            "whatever "
             "pushes");
         key("guide", self.guide, only_for(bounded, any()), "",
             "needed with a finite mass: the axis along which alone it moves, without turning");

@@ -24,7 +24,7 @@ Simulation with_another_seed(const Simulation& simulation)
 {
     Simulation companion = copy_without_sensors(simulation);
     Random random(static_cast<std::uint64_t>(simulation.state.steps));
-    for (Motion& m : companion.state.motion) {
+    for (Body& m : companion.state.bodies) {
         m.velocity *= 1.0 + nudge * (2.0 * uniform(random) - 1.0);
         m.rim_velocity *= 1.0 + nudge * (2.0 * uniform(random) - 1.0);
     }

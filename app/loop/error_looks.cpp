@@ -35,7 +35,7 @@ using Velocities = std::unordered_map<std::int64_t, Vec3>;
 Velocities velocities(const State& state)
 {
     Velocities all;
-    for (std::size_t i = 0; i < state.count(); ++i) all.emplace(state.id[i], state.motion[i].velocity);
+    for (std::size_t i = 0; i < state.count(); ++i) all.emplace(state.id[i], state.body(i).velocity);
     return all;
 }
 
@@ -46,8 +46,8 @@ Velocities free_velocities(const Simulation& simulation)
     const double h = simulation.model.time_step;
     Velocities all;
     for (std::size_t i = 0; i < state.count(); ++i) {
-        Vec3 v = state.motion[i].velocity + h * simulation.model.gravity;
-        if (!state.own_force.empty()) v += h * state.motion[i].inverse_mass * state.own_force[i];
+        Vec3 v = state.body(i).velocity + h * simulation.model.gravity;
+        if (!state.own_force.empty()) v += h * state.body(i).inverse_mass * state.own_force[i];
         all.emplace(state.id[i], v);
     }
     return all;
@@ -63,7 +63,7 @@ void compare_velocities(ErrorLook& look, const State& found, const Velocities& e
 {
     double errors = 0.0, speeds = 0.0, changes = 0.0;
     for (std::size_t i = 0; i < found.count(); ++i) {
-        const Vec3& v = found.motion[i].velocity;
+        const Vec3& v = found.body(i).velocity;
         const Vec3& right = exact.at(found.id[i]);
         errors += (v - right).squaredNorm();
         speeds += v.squaredNorm();

@@ -199,7 +199,8 @@ void RunLoop::tell_incidents(const StepReport& report)
         if (told > incidents_told) continue;
         progress_.finish();
         if (told == incidents_told)
-            warn("further {}\n", pressed ? "presses are not told" : "escapes are told by the ledger and lost.vtp only");
+            warn("further {}\n",
+                pressed ? "presses are not reported" : "escapes are reported by the ledger and lost.vtp only");
         else
             warn("t = {:.6g} s: {}; {}\n", simulation_.state.time,
                 describe(incident, names_of(simulation_.model.walls)), pressed ? "they yield" : "it is taken out");

@@ -21,7 +21,7 @@ struct ContactRow {
     double point[3], normal[3];
     double gap;
     double compression; ///< κ of its spring [m]; −inf: it keeps none
-    double force[3]; ///< on a [N]
+    double force[3];    ///< on a [N]
 };
 
 [[noreturn]] void refuse_name(const std::string& name)
@@ -65,15 +65,14 @@ void register_records()
 py::array copy_of(Session& session, const std::string& name)
 {
     const State& state = session.now().state;
-    const auto& motion = state.motion;
     if (name == "positions") return vectors_by_id(session, [&](std::size_t i) { return state.position[i]; });
-    if (name == "velocities") return vectors_by_id(session, [&](std::size_t i) { return motion[i].velocity; });
+    if (name == "velocities") return vectors_by_id(session, [&](std::size_t i) { return state.body(i).velocity; });
     if (name == "angular_velocities")
         return vectors_by_id(session, [&](std::size_t i) { return state.angular_velocity(i); });
     if (name == "own_forces")
         return vectors_by_id(
             session, [&](std::size_t i) { return state.own_force.empty() ? Vec3(0, 0, 0) : state.own_force[i]; });
-    if (name == "radii") return by_id<double>(session, [&](std::size_t i) { return state.radius(i); });
+    if (name == "radii") return by_id<double>(session, [&](std::size_t i) { return state.radius[i]; });
     if (name == "masses") return by_id<double>(session, [&](std::size_t i) { return state.mass(i); });
     if (name == "materials") return by_id<std::int32_t>(session, [&](std::size_t i) { return state.material[i]; });
     if (name == "ids") return by_id<std::int64_t>(session, [&](std::size_t i) { return state.id[i]; });
@@ -96,10 +95,9 @@ py::array view_of(Session& session, const std::string& name)
         view.attr("flags").attr("writeable") = false;
         return view;
     };
-    const Motion* motion = state.motion.data();
     if (name == "positions") return array(count ? state.position[0].data() : nullptr, sizeof(Vec3), true);
-    if (name == "velocities") return array(count ? motion->velocity.data() : nullptr, sizeof(Motion), true);
-    if (name == "radii") return array(count ? &motion->radius : nullptr, sizeof(Motion), false);
+    if (name == "velocities") return array(count ? state.bodies[0].velocity.data() : nullptr, sizeof(Body), true);
+    if (name == "radii") return array(state.radius.data(), sizeof(double), false);
     if (name == "materials") return array(state.material.data(), sizeof(std::int32_t), false);
     if (name == "ids") return array(state.id.data(), sizeof(std::int64_t), false);
     refuse_name(name);
@@ -118,7 +116,7 @@ py::array contacts_of(Session& session)
         row.wall = wall;
         row.gap = c.gap;
         row.compression = c.compression;
-        write(state.position[c.a] - state.radius(c.a) * c.normal, row.point);
+        write(state.position[c.a] - state.radius[c.a] * c.normal, row.point);
         write(c.normal, row.normal);
         write(c.impulse / h, row.force);
     };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/findings/findings.hpp"
 #include "app/loop/error_looks.hpp"
 #include "app/python/arrays.hpp"
-#include "app/python/findings.hpp"
 #include "app/python/session.hpp"
 #include "app/python/wall.hpp"
 #include "app/system/own_files.hpp"

@@ -276,9 +276,10 @@ Simulation& Session::change()
     Simulation& simulation = now();
     if (lease_.use_count() > 1) { // they keep what they see
         State& state = simulation.state;
-        *lease_ = {state.position, state.motion, state.id, state.material};
+        *lease_ = {state.position, state.bodies, state.radius, state.id, state.material};
         std::swap(lease_->position, state.position);
-        std::swap(lease_->motion, state.motion);
+        std::swap(lease_->bodies, state.bodies);
+        std::swap(lease_->radius, state.radius);
         std::swap(lease_->id, state.id);
         std::swap(lease_->material, state.material);
     }

@@ -30,7 +30,8 @@ struct Busy : std::runtime_error {
 /// works on a copy.
 struct Lease {
     std::vector<Vec3> position;
-    std::vector<Motion> motion;
+    std::vector<Body> bodies;
+    std::vector<double> radius;
     std::vector<std::int64_t> id;
     std::vector<std::int32_t> material;
 };

@@ -7,7 +7,7 @@
 Each scene leaves FOLDER/NAME.png, FOLDER/NAME.json (its command, commit and figures) and FOLDER/NAME.html, the report
 that plays the run. A scene that has them already is left alone unless its file or its
 entry in gallery.toml has changed; delete FOLDER to make all anew, with another Talus for instance. Runs go on one
-thread, so that the seconds that are told are those of one.
+thread, so that the seconds that are reported are those of one.
 """
 import json
 import os

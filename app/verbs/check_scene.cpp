@@ -108,7 +108,8 @@ std::string time_in_words(double seconds)
 /// the old list lives until the new one has taken over its impulses), and for each candidate room for a contact.
 double memory_estimate(const Simulation& simulation, double spheres)
 {
-    const double state = sizeof(Vec3) + sizeof(Motion) + 2 * sizeof(std::int32_t) + sizeof(std::int64_t) + 1;
+    const double state =
+        2 * sizeof(Vec3) + sizeof(double) + sizeof(Body) + 2 * sizeof(std::int32_t) + sizeof(std::int64_t) + 1;
     const double listed = sizeof(Box) + 4 * sizeof(std::uint32_t);
     double candidate = sizeof(IndexPair) + sizeof(Vec3) + 1;
     double contact = (sizeof(ContactPack) + sizeof(RecordPack)) / pack_size;

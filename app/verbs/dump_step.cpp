@@ -39,7 +39,7 @@ std::map<std::string, Eigen::VectorXd> origin_of(const StepProblem& step, const 
     for (const std::size_t sphere : step.sphere_of_body) {
         const Vec3& x = state.position[sphere];
         add("bodies/id", state.id[sphere]);
-        add("bodies/radius", state.radius(sphere));
+        add("bodies/radius", state.radius[sphere]);
         add("bodies/position", x.x(), x.y(), x.z());
     }
     for (const ContactOrigin& contact : step.contacts) {

@@ -10,7 +10,7 @@ namespace talus
 namespace
 {
 
-constexpr std::size_t least_blocks = 4; ///< from fewer, their scatter is not told
+constexpr std::size_t least_blocks = 4; ///< from fewer, their scatter is not known
 
 } // namespace
 

@@ -8,32 +8,32 @@ namespace talus
 namespace
 {
 
-constexpr double skin = 0.08;         ///< growth of a listed box on each side, in smallest diameters …
-constexpr double skin_per_draw = 0.2; ///< … and this share of what it is drawn out: fast grains stray more
-constexpr double horizon_steps = 20;  ///< steps along its way for which a listed box is drawn out …
-constexpr double longest_way = 1.0;   ///< … but with what it needs now by this many smallest diameters at most
+constexpr double skin = 0.08;        ///< growth of a listed box on each side, in smallest diameters …
+constexpr double skin_per_way = 0.2; ///< … and this share of what it is drawn out: fast grains stray more
+constexpr double horizon_steps = 20; ///< steps along its way for which a listed box is drawn out …
+constexpr double longest_way = 1.0;  ///< … but with what it needs now by this many smallest diameters at most
 constexpr double tile_diameters =
     6.0;                            ///< a tile's edge at least, in mean diameters: packs of smaller ones are less full
-constexpr double worn_share = 0.25; ///< a sphere that has used up so much of its skin is searched for with others …
+constexpr double used_share = 0.25; ///< a sphere that has used up so much of its skin is searched for with others …
 constexpr double steps_ahead = 4.0; ///< … and so is one that will have, after so many steps more
 constexpr double wall_skin = 0.2;   ///< how far a wall may move before it is searched for anew, in smallest diameters
 
 /// Room around the centre of sphere i that its surface takes, with half the reach of its contacts.
 double needed_radius(const State& state, const Model& model, std::size_t i)
 {
-    return state.radius(i) + 0.5 * open_contact_reach * model.min_diameter;
+    return state.radius[i] + 0.5 * open_contact_reach * model.min_diameter;
 }
 
 /// The room that sphere i takes, and would take after the closing horizon, with the reach of its contacts.
 Box needed_box(const State& state, const Model& model, double h, std::size_t i)
 {
     const Vec3& x = state.position[i];
-    const Vec3 move = closing_horizon * h * (state.motion[i].velocity + h * model.gravity);
+    const Vec3 move = closing_horizon * h * (state.body(i).velocity + h * model.gravity);
     return Box{x, x}.extend(Vec3(x + move)).grown(needed_radius(state, model, i));
 }
 
 /// The room that a box takes on its way.
-Box drawn_out(const Box& box, const Vec3& way)
+Box swept_box(const Box& box, const Vec3& way)
 {
     return Box(box).extend(box.shifted(way));
 }
@@ -41,19 +41,19 @@ Box drawn_out(const Box& box, const Vec3& way)
 Box new_listed_box(const State& state, const Model& model, double h, std::size_t i)
 {
     const double t = horizon_steps * h;
-    Vec3 draw = t * state.motion[i].velocity + 0.5 * t * t * model.gravity;
+    Vec3 way = t * state.body(i).velocity + 0.5 * t * t * model.gravity;
     const Box now = needed_box(state, model, h, i);
     const double way_now = now.extent().maxCoeff() - 2.0 * needed_radius(state, model, i);
     const double longest = std::max(0.0, longest_way * model.min_diameter - way_now);
-    if (draw.norm() > longest) draw *= longest / draw.norm();
-    return drawn_out(now, draw).grown(skin * model.min_diameter + skin_per_draw * draw.norm());
+    if (way.norm() > longest) way *= longest / way.norm();
+    return swept_box(now, way).grown(skin * model.min_diameter + skin_per_way * way.norm());
 }
 
 /// A listed box is no longer than this along an axis, but that of a sphere which moves further in a step than spheres
 /// should.
 double usual_box_length(const Model& model)
 {
-    const double way = longest_way * (1.0 + 2.0 * skin_per_draw);
+    const double way = longest_way * (1.0 + 2.0 * skin_per_way);
     return model.max_diameter + (open_contact_reach + 2.0 * skin + way) * model.min_diameter;
 }
 
@@ -83,9 +83,9 @@ std::vector<std::int32_t> spheres_to_search(const CandidateList& list, const Sta
         const Vec3 shift = model.periodicity.shift_towards(state.position[k], list.listed_box[k].center());
         const Box needed = needed_box(state, model, h, k).shifted(shift);
         const bool left = !list.listed_box[k].contains(needed);
-        const Box soon = drawn_out(needed, steps_ahead * h * state.motion[k].velocity);
-        const bool worn = !list.listed_box[k].contains(soon.grown((1.0 - worn_share) * skin * model.min_diameter));
-        wear[k] = left || worn;
+        const Box soon = swept_box(needed, steps_ahead * h * state.body(k).velocity);
+        const bool used_up = !list.listed_box[k].contains(soon.grown((1.0 - used_share) * skin * model.min_diameter));
+        wear[k] = left || used_up;
         any_left = any_left || left;
     }
     std::vector<std::int32_t> result;

@@ -20,7 +20,7 @@ StepConstants step_constants(const Model& model, const StepLength& length)
     step.law = law_of_step(model, length);
     step.reach = open_contact_reach * model.min_diameter;
     step.horizon = closing_horizon * step.law.h;
-    step.inverse_inertia = model.physics.spin ? inverse_inertia_factor : 0.0;
+    step.inverse_inertia_factor = model.physics.spin ? inverse_inertia_factor : 0.0;
     for (int d = 0; d < 3; ++d) step.cell_length[d] = model.periodicity.length[d];
     step.is_periodic = model.periodicity.any();
     return step;
@@ -74,7 +74,7 @@ ContactSurvey assemble_piston_contacts(ContactNetwork& network, const State& sta
         if (!wall.is_piston()) return;
         const Vec3 center = wall.pose()(model.pistons[wall.wall().piston].center);
         detection.lay(meetings, [&](const WallTouch& touch, const WallMeeting& meeting) {
-            const Vec3 place = detection.place(touch.sphere) - state.radius(touch.sphere) * touch.normal;
+            const Vec3 place = detection.place(touch.sphere) - state.radius[touch.sphere] * touch.normal;
             network.contacts.piston_arms.push_back(
                 place - wall.image_of(static_cast<std::size_t>(meeting.at.patch)) - center);
             assembly.add(touch);

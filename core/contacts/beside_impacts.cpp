@@ -13,7 +13,7 @@ namespace
 class Bystanders
 {
 public:
-    Bystanders(TileContacts& contacts, bool with_walls, std::vector<SphereImpacts>& impacts, const State& state)
+    Bystanders(TileContacts& contacts, bool with_walls, std::vector<BodyImpacts>& impacts, const State& state)
         : contacts_(contacts), with_walls_(with_walls), impacts_(impacts), state_(state)
     {
     }
@@ -42,11 +42,11 @@ public:
     {
         double ratio = 0.0;
         for (const std::size_t k : contacts_.struck()) {
-            const double u_n = contacts_.normal(k).dot(state_.motion[contacts_.a(k)].velocity - velocity_of_other(k));
+            const double u_n = contacts_.normal(k).dot(state_.body(contacts_.a(k)).velocity - velocity_of_other(k));
             if (!settle_one(k, u_n, step)) continue;
             const std::int32_t a = contacts_.a(k);
-            ratio = std::max(ratio, ratio_at(a, with_walls_ ? 0.0 : state_.motion[contacts_.b(k)].inverse_mass));
-            if (!with_walls_) ratio = std::max(ratio, ratio_at(contacts_.b(k), state_.motion[a].inverse_mass));
+            ratio = std::max(ratio, ratio_at(a, with_walls_ ? 0.0 : state_.body(contacts_.b(k)).inverse_mass));
+            if (!with_walls_) ratio = std::max(ratio, ratio_at(contacts_.b(k), state_.body(a).inverse_mass));
         }
         return ratio;
     }
@@ -54,13 +54,13 @@ public:
 private:
     TileContacts& contacts_;
     const bool with_walls_;
-    std::vector<SphereImpacts>& impacts_;
+    std::vector<BodyImpacts>& impacts_;
     const State& state_;
 
     /// Of what strikes a sphere, to the sphere's.
     double ratio_at(std::int32_t sphere, double inverse_mass_of_other) const
     {
-        return impact_ratio(impacts_[sphere].mass, state_.motion[sphere].inverse_mass, inverse_mass_of_other);
+        return impact_ratio(impacts_[sphere].mass, state_.body(sphere).inverse_mass, inverse_mass_of_other);
     }
 
     /// As bits.
@@ -68,7 +68,7 @@ private:
     {
         const ContactPack& pack = contacts_.pack(p);
         const std::int32_t* const other = with_walls_ ? pack.a : pack.b;
-        const SphereImpacts* const impacts = impacts_.data();
+        const BodyImpacts* const impacts = impacts_.data();
         unsigned lanes = 0;
         for (unsigned lane = 0; lane < pack_size; ++lane) { // no branch: which are struck is no pattern
             const double size = impacts[std::max(pack.a[lane], 0)].size + impacts[std::max(other[lane], 0)].size;
@@ -82,7 +82,7 @@ private:
     {
         if (contacts_.kind(k) == ContactKind::impact) return false;
         const Contact own = contacts_.contact(k);
-        const SphereImpacts &a = impacts_[contacts_.a(k)], &b = with_walls_ ? a : impacts_[contacts_.b(k)];
+        const BodyImpacts &a = impacts_[contacts_.a(k)], &b = with_walls_ ? a : impacts_[contacts_.b(k)];
         const auto law = beside_impact({.gap = own.gap,
                                            .u_n = u_n,
                                            .compression = own.compression,
@@ -128,7 +128,7 @@ double stand_beside_impacts(ContactNetwork& network, const State& state, const M
             const auto tile = static_cast<std::size_t>(t);
             const TileContacts &between = contacts.spheres[tile], &at_walls = contacts.walls[tile];
             const double of_spheres =
-                spheres(tile).settle(step, [&](std::size_t k) { return state.motion[between.b(k)].velocity; });
+                spheres(tile).settle(step, [&](std::size_t k) { return state.body(between.b(k)).velocity; });
             const double of_walls = walls(tile).settle(step, [&](std::size_t k) {
                 return at_walls.has_moving_walls()
                            ? Vec3(at_walls.wall(k).velocity - at_walls.wall(k).gain * at_walls.normal(k))

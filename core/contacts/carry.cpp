@@ -24,7 +24,7 @@ ContactOutcome carry(TileContacts& contacts, CarriedImpulses& carried, const Sta
         unsigned deep = fastest_kernels().touch.hand_on(contacts.pack(p), contacts.record(p), law, records, handed);
         for (; deep != 0; deep &= deep - 1) {
             const std::size_t k = pack_size * p + static_cast<std::size_t>(std::countr_zero(deep));
-            const Vec3 u = state.motion[contacts.a(k)].velocity - velocity_of_b(k); // solved or not
+            const Vec3 u = state.body(contacts.a(k)).velocity - velocity_of_b(k); // solved or not
             const TouchRecord touch = noted(contacts.touch(k), contacts.kind(k), contacts.is_loaded(k),
                 -contacts.gap(k) / law.min_diameter, u.dot(contacts.normal(k)), law);
             contacts.set_touch(k, touch);
@@ -58,7 +58,7 @@ WallLoad load_from(const TileContacts& walls, const State& state, double h)
     for (const std::size_t k : walls.indices()) {
         const std::int32_t a = walls.a(k);
         const Vec3 impulse = walls.impulse(k);
-        const Vec3 point = state.position[a] - h * state.motion[a].velocity - state.radius(a) * walls.normal(k);
+        const Vec3 point = state.position[a] - h * state.body(a).velocity - state.radius[a] * walls.normal(k);
         load.impulse += impulse;
         load.torque += point.cross(impulse);
         if (walls.has_rolling()) load.torque += walls.rolling_impulse(k);
@@ -95,7 +95,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
         TileContacts& walls = contacts.walls[tile];
         TileContacts& spheres = contacts.spheres[tile];
         outcome = carry(spheres, network.list.tiles.tiles[tile].carried, state, law,
-            [&](std::size_t k) { return state.motion[spheres.b(k)].velocity; });
+            [&](std::size_t k) { return state.body(spheres.b(k)).velocity; });
         outcome += carry(walls, network.carried.walls, state, law,
             [&](std::size_t k) { return walls.has_moving_walls() ? walls.wall(k).velocity : Vec3::Zero().eval(); });
         if (walls.has_moving_walls())

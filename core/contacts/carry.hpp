@@ -13,9 +13,9 @@ namespace talus
 /// What is handed on to the next step, read from the solved contacts.
 struct ContactOutcome {
     double cone_violation = 0.0; ///< worst |λ_t| − μ λ_n [N s], 0 if none
-    WallLoad from_walls;    ///< on the spheres, of all that are not pistons, where spheres were before x ← x + h v
-    WallLoad from_pistons;  ///< the same of pistons
-    double wall_work = 0.0; ///< of walls that move as told on the spheres: Σ λ·w and Σ of rolling rows · spin [J]
+    WallLoad from_walls;   ///< on the spheres, of all that are not pistons, where spheres were before x ← x + h v
+    WallLoad from_pistons; ///< the same of pistons
+    double wall_work = 0.0; ///< of walls that move as prescribed on the spheres: Σ λ·w and Σ of rolling rows · spin [J]
     double wall_gain_work = 0.0;  ///< what is more where walls get faster, which they do evenly within the step [J]
     double push_out_energy = 0.0; ///< that contacts without springs have put in at most, pushing out [J]
     double stored_energy = 0.0;   ///< in the contacts' springs, as the step leaves them [J]

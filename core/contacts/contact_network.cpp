@@ -14,7 +14,8 @@ void StepContacts::resize(const CandidateList& list, const ModelledPhysics& phys
     for (TileContacts& tile : walls) tile.clear(physics.rolling, physics.moving_walls);
     pistons.clear(physics.rolling, false);
     piston_arms.clear();
-    reach_balls.resize(sphere_count);
+    places.resize(sphere_count);
+    reaches.resize(sphere_count);
     impacts.assign(sphere_count, {});
     rooms.resize(static_cast<std::size_t>(omp_get_max_threads()));
 }

@@ -19,8 +19,8 @@ struct AssemblyRoom {
     std::vector<TouchPack> touches;  ///< … and what was found of its contacts with walls, by pack
 };
 
-/// What a sphere has that has an impact in this step. Tiles that share it may note it at once.
-struct SphereImpacts {
+/// What a body has that has an impact in this step. Tiles that share it may note it at once.
+struct BodyImpacts {
     double size = 0.0; ///< impulse of its largest impact, had it that alone [N s]; 0: it has none
     double mass = 0.0; ///< heaviest that it meets so [kg]
     double load = 0.0; ///< largest normal impulse that its contacts brought from the step before [N s]
@@ -44,14 +44,15 @@ private:
 
 /// The contacts of one step; scratch, made anew in every step.
 struct StepContacts {
-    std::vector<TileContacts> spheres;  ///< by tile
-    std::vector<TileContacts> walls;    ///< by tile; without those with pistons …
-    TileContacts pistons;               ///< … which one thread takes after the tiles, one by one
-    std::vector<Vec3> piston_arms;      ///< by contact: from the centre of the piston to where it is [m]
-    std::vector<AssemblyRoom> rooms;    ///< by thread
-    std::vector<ReachBall> reach_balls; ///< by sphere
-    std::vector<SphereImpacts> impacts; ///< by sphere
-    std::vector<Vec3> free_velocity;    ///< by sphere: v⁽¹⁾, as if nothing touched; of the warm start [m/s]
+    std::vector<TileContacts> spheres; ///< by tile
+    std::vector<TileContacts> walls;   ///< by tile; without those with pistons …
+    TileContacts pistons;              ///< … which one thread takes after the tiles, one by one
+    std::vector<Vec3> piston_arms;     ///< by contact: from the centre of the piston to where it is [m]
+    std::vector<AssemblyRoom> rooms;   ///< by thread
+    std::vector<SpherePlace> places;   ///< by sphere, for detection …
+    std::vector<double> reaches;       ///< … with what it can touch in this step, from its centre [m]
+    std::vector<BodyImpacts> impacts;  ///< by body
+    std::vector<Vec3> free_velocity;   ///< by body: v⁽¹⁾, as if nothing touched; of the warm start [m/s]
 
     /// That of the thread that asks.
     AssemblyRoom& room();
@@ -63,17 +64,17 @@ struct StepContacts {
 
 /// How the bodies moved before a step that may have to be taken back; scratch, kept for its room.
 struct MotionBefore {
-    std::vector<Motion> spheres;
+    std::vector<Body> bodies;
     std::vector<PistonState> pistons;
 
     void take(const State& state)
     {
-        spheres = state.motion;
+        bodies = state.bodies;
         pistons = state.pistons;
     }
     void put_back(State& state) const
     {
-        state.motion = spheres;
+        state.bodies = bodies;
         state.pistons = pistons;
     }
 };

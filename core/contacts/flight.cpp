@@ -13,11 +13,9 @@ namespace talus
 namespace
 {
 
-/// When two spheres touch, from now on; 0 where they do already.
-double meeting_instant(const Motion& a, const Motion& b, const Vec3& apart, double h)
+/// When spheres so far apart touch that move so against each other, from now on; 0 where they do already.
+double meeting_instant(const Vec3& apart, const Vec3& velocity, double radii, double h)
 {
-    const Vec3 velocity = a.velocity - b.velocity;
-    const double radii = a.radius + b.radius;
     const double closes =
         closing_time<double>(-apart.dot(velocity), velocity.squaredNorm(), apart.squaredNorm() - radii * radii);
     return std::clamp(closes, 0.0, h);
@@ -27,16 +25,16 @@ double meeting_instant(const Motion& a, const Motion& b, const Vec3& apart, doub
 struct Meetings {
     double instants = 0.0; ///< sum over its impacts with spheres [s]
     int impacts = 0;       ///< with spheres
-    bool held = false;     ///< it has other contacts, or impacts with walls
+    bool bound = false;    ///< it has other contacts, or impacts with walls
 
-    bool meets_one() const { return impacts == 1 && !held; }
-    bool in_flight() const { return impacts > 0 && !held; }
+    bool meets_one() const { return impacts == 1 && !bound; }
+    bool in_flight() const { return impacts > 0 && !bound; }
     double instant() const { return instants / impacts; }
 };
 
 /// Whether a contact may have an impulse that keeps a sphere from flying: not what is deferred, or parts after an
 /// impact.
-bool holds(const TileContacts& contacts, std::size_t k)
+bool binds(const TileContacts& contacts, std::size_t k)
 {
     const ContactKind kind = contacts.kind(k);
     return kind != ContactKind::deferred &&
@@ -51,10 +49,10 @@ public:
     MeetingSurvey(const ContactNetwork& network, const State& state, const Model& model, double h)
         : of(state.count()), contacts_(network.contacts), state_(state), model_(model), h_(h)
     {
-        hold(contacts_.pistons);
+        bind(contacts_.pistons);
         with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
             crew.color_by_color([&](std::size_t tile) {
-                hold(contacts_.walls[tile]);
+                bind(contacts_.walls[tile]);
                 note(contacts_.spheres[tile]);
             });
             // Moved by one instant a pair keeps its potential energy; several that meet each other do not.
@@ -69,23 +67,24 @@ private:
     const Model& model_;
     const double h_;
 
-    void hold(const TileContacts& walls)
+    void bind(const TileContacts& walls)
     {
         for (const std::size_t k : walls.struck())
-            if (holds(walls, k)) of[walls.a(k)].held = true;
+            if (binds(walls, k)) of[walls.a(k)].bound = true;
     }
 
     void note(const TileContacts& spheres)
     {
         for (const std::size_t k : spheres.struck()) {
             const auto [a, b] = std::pair(spheres.a(k), spheres.b(k));
-            if (!holds(spheres, k)) continue;
+            if (!binds(spheres, k)) continue;
             if (spheres.kind(k) != ContactKind::impact) {
-                of[a].held = of[b].held = true;
+                of[a].bound = of[b].bound = true;
                 continue;
             }
             const Vec3 apart = model_.periodicity.nearest_image(state_.position[a] - state_.position[b]);
-            const double instant = meeting_instant(state_.motion[a], state_.motion[b], apart, h_);
+            const double instant = meeting_instant(
+                apart, state_.body(a).velocity - state_.body(b).velocity, state_.radius[a] + state_.radius[b], h_);
             for (const std::int32_t sphere : {a, b}) {
                 ++of[sphere].impacts;
                 of[sphere].instants += instant;
@@ -98,7 +97,7 @@ private:
         for (const std::size_t k : spheres.struck()) {
             if (spheres.kind(k) != ContactKind::impact) continue;
             Meetings &a = of[spheres.a(k)], &b = of[spheres.b(k)];
-            if (!a.meets_one() || !b.meets_one()) a.held = b.held = true;
+            if (!a.meets_one() || !b.meets_one()) a.bound = b.bound = true;
         }
     }
 };
@@ -112,7 +111,7 @@ std::vector<Flight> find_flights(const ContactNetwork& network, const State& sta
     for (std::size_t i = 0; i < state.count(); ++i)
         if (const Meetings& met = meetings.of[i]; met.in_flight() && met.instants > 0.0)
             flights.push_back({static_cast<std::int32_t>(i), met.instant(),
-                met.instant() * (state.motion[i].velocity + h * model.gravity)});
+                met.instant() * (state.body(i).velocity + h * model.gravity)});
     return flights;
 }
 
@@ -120,7 +119,7 @@ double move_flights(const std::vector<Flight>& flights, State& state, const Vec3
 {
     double lifted = 0.0;
     for (const Flight& flight : flights) {
-        const Vec3 shift = flight.way - flight.instant * state.motion[flight.sphere].velocity;
+        const Vec3 shift = flight.way - flight.instant * state.body(flight.sphere).velocity;
         state.position[flight.sphere] += shift;
         lifted -= state.mass(flight.sphere) * gravity.dot(shift);
     }

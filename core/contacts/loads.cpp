@@ -32,7 +32,7 @@ std::vector<WallLoad> wall_loads(const ContactNetwork& network, const State& sta
     const auto add = [&](const TileContacts& contacts) {
         for (const std::size_t k : contacts.indices()) {
             const Contact c = contacts.contact(k);
-            const Vec3 point = state.position[c.a] - state.radius(c.a) * c.normal;
+            const Vec3 point = state.position[c.a] - state.radius[c.a] * c.normal;
             loads[c.b].impulse -= c.impulse;
             loads[c.b].torque -= point.cross(c.impulse);
             if (contacts.has_rolling()) loads[c.b].torque -= contacts.rolling_impulse(k);

@@ -8,20 +8,14 @@ namespace talus
 namespace
 {
 
-/// 1/I of a solid sphere [1/(kg m²)].
-double inverse_inertia(const Motion& m)
-{
-    return inverse_inertia_factor * m.inverse_mass / (m.radius * m.radius);
-}
-
 RollingRow rolling_row(const Contact& c, bool with_wall, const Vec3& carried, const State& state, const Model& model)
 {
-    const Motion &a = state.motion[c.a], &b = state.motion[with_wall ? c.a : c.b];
+    const double a = state.radius[c.a], b = with_wall ? infinity : state.radius[c.b];
     const int other = with_wall ? model.walls[c.b].material : state.material[c.b];
-    const double radius = with_wall ? a.radius : a.radius * b.radius / (a.radius + b.radius);
+    const double reduced_radius = with_wall ? a : a * b / (a + b);
     const ContactLaw& law = model.materials.between(state.material[c.a], other);
-    RollingRow row{Vec3::Zero(), law.rolling_friction * radius,
-        1.0 / (inverse_inertia(a) + (with_wall ? 0.0 : inverse_inertia(b)))};
+    RollingRow row{Vec3::Zero(), law.rolling_friction * reduced_radius,
+        1.0 / (state.body(c.a).inverse_inertia() + (with_wall ? 0.0 : state.body(c.b).inverse_inertia()))};
     if (c.kind == ContactKind::impact) return row;
     row.impulse = carried - carried.dot(c.normal) * c.normal;
     cut_to_disk<double>(row.impulse, row.reach * c.normal_impulse());

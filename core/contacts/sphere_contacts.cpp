@@ -11,22 +11,26 @@ namespace talus
 namespace
 {
 
-/// So wide that two spheres of which one comes within reach of the other have balls that meet.
-ReachBall reach_ball(const State& state, std::size_t i, const StepConstants& step)
+SpherePlace place_of(const State& state, std::size_t i)
 {
-    const Motion& m = state.motion[i];
-    const Vec3& x = state.position[i];
-    return {{x.x(), x.y(), x.z()}, m.radius + std::max(0.5 * step.reach, step.horizon * m.velocity.norm())};
+    const Vec3 &x = state.position[i], &v = state.body(i).velocity;
+    return {{x.x(), x.y(), x.z()}, state.radius[i], {v.x(), v.y(), v.z()}, state.body(i).inverse_mass};
 }
 
-void note_impacts(const ContactPack& pack, PackImpacts impacts, const std::vector<Motion>& motion,
-    std::vector<SphereImpacts>& spheres)
+/// So far that two spheres of which one comes within reach of the other meet with it.
+double reach_of(const State& state, std::size_t i, const StepConstants& step)
+{
+    return state.radius[i] + std::max(0.5 * step.reach, step.horizon * state.body(i).velocity.norm());
+}
+
+void note_impacts(
+    const ContactPack& pack, PackImpacts impacts, const std::vector<Body>& bodies, std::vector<BodyImpacts>& of)
 {
     for (; impacts.lanes != 0; impacts.lanes &= impacts.lanes - 1) {
         const int lane = std::countr_zero(impacts.lanes);
         const std::int32_t a = pack.a[lane], b = pack.b[lane];
-        spheres[a].note(impacts.size[lane], 1.0 / motion[b].inverse_mass);
-        spheres[b].note(impacts.size[lane], 1.0 / motion[a].inverse_mass);
+        of[a].note(impacts.size[lane], bodies[b].mass());
+        of[b].note(impacts.size[lane], bodies[a].mass());
     }
 }
 
@@ -36,10 +40,14 @@ SphereAssembly::SphereAssembly(
     ContactNetwork& network, const State& state, const Model& model, const StepConstants& step)
     : network_(network), state_(state), model_(model), step_(step)
 {
-    std::vector<ReachBall>& balls = network.contacts.reach_balls;
+    std::vector<SpherePlace>& places = network.contacts.places;
+    std::vector<double>& reaches = network.contacts.reaches;
 #pragma omp parallel for schedule(static) if (state.count() > 1000)
-    for (std::size_t i = 0; i < state.count(); ++i) balls[i] = reach_ball(state, i, step);
-    spheres_ = {balls.data(), reinterpret_cast<const double*>(state.motion.data()), state.material.data(),
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        places[i] = place_of(state, i);
+        reaches[i] = reach_of(state, i, step);
+    }
+    spheres_ = {places.data(), reaches.data(), state.material.data(),
         static_cast<std::int32_t>(model.materials.list.size()),
         reinterpret_cast<const double*>(model.materials.laws.data()), nullptr};
 }
@@ -54,7 +62,7 @@ ContactSurvey SphereAssembly::assemble(std::size_t tile)
     return make(own, spheres, contacts);
 }
 
-/// Those whose balls meet, and those that are loaded: these have something to forget.
+/// Those within reach, and those that are loaded: these have something to forget.
 void SphereAssembly::place(const Tile& tile, const SphereNumbers& spheres, TileContacts& contacts)
 {
     AssemblyRoom& room = network_.contacts.room();
@@ -75,7 +83,7 @@ ContactSurvey SphereAssembly::make(const Tile& tile, const SphereNumbers& sphere
     for (std::size_t p = 0; p < contacts.packs(); ++p) {
         const PackImpacts impacts = kernel_.touch_spheres(contacts.pack(p), contacts.record(p), sums, spheres, step_);
         if (contacts.has_rolling()) make_rolling_rows(contacts, p, false, tile.carried.rolling_impulse, state_, model_);
-        note_impacts(contacts.pack(p), impacts, state_.motion, network_.contacts.impacts);
+        note_impacts(contacts.pack(p), impacts, state_.bodies, network_.contacts.impacts);
     }
     return survey_of(sums);
 }

@@ -6,67 +6,11 @@
 #include "core/packs/contact_pack.hpp"
 
 #include <bit>
-#include <iterator>
+#include <ranges>
 #include <vector>
 
 namespace talus
 {
-
-/// The lanes of packs that hold a contact of this step.
-class LanesInProblem
-{
-public:
-    class Iterator
-    {
-    public:
-        using difference_type = std::ptrdiff_t;
-        using value_type = std::size_t;
-        using pointer = const std::size_t*;
-        using reference = std::size_t;
-        using iterator_category = std::forward_iterator_tag;
-
-        Iterator() = default;
-        Iterator(const RecordPack* records, std::size_t pack, std::size_t end)
-            : records_(records), pack_(pack), end_(end), lanes_(pack < end ? records[pack].in_problem : 0)
-        {
-            skip();
-        }
-        std::size_t operator*() const { return pack_size * pack_ + static_cast<std::size_t>(std::countr_zero(lanes_)); }
-        Iterator& operator++()
-        {
-            lanes_ &= lanes_ - 1;
-            skip();
-            return *this;
-        }
-        Iterator operator++(int)
-        {
-            const Iterator before = *this;
-            ++*this;
-            return before;
-        }
-        bool operator==(const Iterator& other) const { return pack_ == other.pack_ && lanes_ == other.lanes_; }
-
-    private:
-        const RecordPack* records_ = nullptr;
-        std::size_t pack_ = 0, end_ = 0;
-        unsigned lanes_ = 0; ///< of the pack that are left
-
-        /// To the next pack that has one.
-        void skip()
-        {
-            while (lanes_ == 0 && pack_ < end_)
-                if (++pack_ < end_) lanes_ = records_[pack_].in_problem;
-        }
-    };
-
-    LanesInProblem(const RecordPack* records, std::size_t packs) : records_(records), packs_(packs) {}
-    Iterator begin() const { return {records_, 0, packs_}; }
-    Iterator end() const { return {records_, packs_, packs_}; }
-
-private:
-    const RecordPack* records_;
-    std::size_t packs_;
-};
 
 /// The contacts of one kind in one tile, in packs. Contact k is lane k mod 8 of pack k / 8; not all lanes hold one.
 class TileContacts
@@ -110,14 +54,18 @@ public:
     bool has_rolling() const { return with_rolling_; }
     bool has_moving_walls() const { return with_moving_walls_; }
     /// The indices of the contacts, in the order in which they are swept.
-    LanesInProblem indices() const { return {records_.data(), count_}; }
+    auto indices() const
+    {
+        return std::views::iota(std::size_t{0}, pack_size * count_) |
+               std::views::filter([this](std::size_t k) { return records_[k / pack_size].holds(k % pack_size); });
+    }
     /// Of these, those of which a sphere has an impact, once `stand_beside_impacts` has looked for them.
     const std::vector<std::size_t>& struck() const { return struck_; }
     std::vector<std::size_t>& struck() { return struck_; }
     std::size_t count() const
     {
-        const LanesInProblem all = indices();
-        return static_cast<std::size_t>(std::distance(all.begin(), all.end()));
+        auto all = indices();
+        return static_cast<std::size_t>(std::ranges::distance(all));
     }
     std::int32_t a(std::size_t k) const { return packs_[k / pack_size].a[k % pack_size]; }
     std::int32_t b(std::size_t k) const { return packs_[k / pack_size].b[k % pack_size]; }

@@ -44,8 +44,8 @@ void WallAssembly::add(const WallTouch& at)
     touch.struck[lane] = -static_cast<std::int64_t>(carried.touch.last() == TouchRecord::impact);
     touch.pushed[lane] = -static_cast<std::int64_t>(carried.touch.last() == TouchRecord::closing_a_gap);
     touch.gap[lane] = at.gap;
-    touch.diameter[lane] = 2.0 * state_.radius(at.sphere);
-    touch.reduced_radius[lane] = state_.radius(at.sphere);
+    touch.diameter[lane] = 2.0 * state_.radius[at.sphere];
+    touch.reduced_radius[lane] = state_.radius[at.sphere];
     touch.u_n[lane] = at.u_n;
     touch.u_n_before[lane] = at.u_n_before;
     touch.closes[lane] = at.closes;

@@ -36,7 +36,7 @@ private:
     TileContacts& contacts_;
     const bool with_pistons_;
     const CarriedImpulses& carried_;
-    std::vector<SphereImpacts>& impacts_;
+    std::vector<BodyImpacts>& impacts_;
     AssemblyRoom& room_;
     const State& state_;
     const Model& model_;

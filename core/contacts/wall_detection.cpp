@@ -33,7 +33,7 @@ const std::vector<WallMeeting>& WallDetection::find(std::span<WallPair> pairs)
     now_.clear();
     const std::int32_t sphere = pairs.front().sphere;
     x_ = place(sphere);
-    const double radius = state_.radius(sphere);
+    const double radius = state_.radius[sphere];
     for (WallPair& pair : pairs)
         if (walls_[pair.wall].stands()) add_touching(pair, radius + touching_gap * step_.law.min_diameter);
     drop_hidden(0, 0, radius);
@@ -74,14 +74,14 @@ void WallDetection::add_gaps(WallPair& pair, std::span<const WallPoint> now, std
     if (std::ranges::all_of(now, touched)) return;
 
     const PlacedWall& wall = walls_[pair.wall];
-    const Motion& m = state_.motion[pair.sphere];
-    Vec3 velocity = free_velocity(wall, m, static_cast<std::size_t>(now.front().patch));
+    Vec3 velocity = free_velocity(wall, state_.body(pair.sphere), static_cast<std::size_t>(now.front().patch));
     // What bears the sphere lets it sink no further: else it would meet the rims of what is level with it.
     for (std::size_t k = 0; k < touching; ++k) {
         const Vec3& normal = meetings_[k].at.normal;
         velocity -= std::min(0.0, normal.dot(velocity)) * normal;
     }
-    const double speed = velocity.norm(), reach = m.radius + std::max(step_.reach, step_.horizon * speed);
+    const double speed = velocity.norm(),
+                 reach = state_.radius[pair.sphere] + std::max(step_.reach, step_.horizon * speed);
     const auto is_near = [&](const WallPoint& at) { return at.distance <= reach + step_.law.h * speed; };
     if (std::ranges::none_of(now, [&](const WallPoint& at) { return is_near(at) && !touched(at); })) return;
 
@@ -96,7 +96,7 @@ void WallDetection::add_gaps(WallPair& pair, std::span<const WallPoint> now, std
         if (touched(at_end)) continue;
         const WallPoint at =
             nearest_on_path(wall, *std::ranges::find(now, at_end.patch, &WallPoint::patch), at_end, velocity);
-        const double gap = at.normal.dot(x_ - at.point) - m.radius, u_n = at.normal.dot(velocity);
+        const double gap = at.normal.dot(x_ - at.point) - state_.radius[pair.sphere], u_n = at.normal.dot(velocity);
         if (gap <= step_.reach || gap + step_.horizon * u_n <= 0.0) meetings_.push_back({&pair, at});
     }
 }
@@ -125,9 +125,9 @@ void WallDetection::drop_hidden(std::size_t from, std::size_t behind_all, double
 }
 
 /// Of the sphere against the wall's material at its place, if nothing touched them [m/s].
-Vec3 WallDetection::free_velocity(const PlacedWall& wall, const Motion& motion, std::size_t patch) const
+Vec3 WallDetection::free_velocity(const PlacedWall& wall, const Body& body, std::size_t patch) const
 {
-    const Vec3 free = motion.velocity + step_.law.h * model_.gravity;
+    const Vec3 free = body.velocity + step_.law.h * model_.gravity;
     return wall.moves() ? Vec3(free - wall.velocity(patch, x_) - wall.gain()) : free;
 }
 
@@ -151,13 +151,14 @@ WallTouch WallDetection::touch(const WallMeeting& meeting, std::uint32_t slot) c
 {
     const WallPair& pair = *meeting.pair;
     const PlacedWall& wall = walls_[pair.wall];
-    const Motion& m = state_.motion[pair.sphere];
+    const Body& body = state_.body(pair.sphere);
+    const double radius = state_.radius[pair.sphere];
     const Vec3& n = meeting.at.normal;
-    const double gap = n.dot(x_ - meeting.at.point) - m.radius;
+    const double gap = n.dot(x_ - meeting.at.point) - radius;
     const auto patch = static_cast<std::size_t>(meeting.at.patch);
-    const WallRow row = wall.moves() ? WallRow{wall.velocity(patch, x_ - m.radius * n), wall.spin()} : WallRow{};
-    const double gain = wall.moves() ? n.dot(row.velocity - wall.velocity_before(patch, x_ - m.radius * n)) : 0.0;
-    const double u_n = n.dot(m.velocity - row.velocity);
+    const WallRow row = wall.moves() ? WallRow{wall.velocity(patch, x_ - radius * n), wall.spin()} : WallRow{};
+    const double gain = wall.moves() ? n.dot(row.velocity - wall.velocity_before(patch, x_ - radius * n)) : 0.0;
+    const double u_n = n.dot(body.velocity - row.velocity);
     const double u_n_ahead = u_n + step_.law.h * n.dot(model_.gravity) - n.dot(wall.gain());
     const double wall_inverse_mass = wall.is_piston() ? 1.0 / model_.pistons[wall.wall().piston].mass : 0.0;
     const double way_ahead = wall.is_piston() ? 0.0 : step_.law.h * n.dot(row.velocity); // where that is known
@@ -168,7 +169,7 @@ WallTouch WallDetection::touch(const WallMeeting& meeting, std::uint32_t slot) c
         .u_n = u_n,
         .u_n_before = u_n + gain,
         .closes = u_n_ahead < 0.0 ? -gap / u_n_ahead : infinity,
-        .inverse_mass_sum = m.inverse_mass + wall_inverse_mass,
+        .inverse_mass_sum = body.inverse_mass + wall_inverse_mass,
         .slot = slot,
         .wall_level = n.dot(state_.position[pair.sphere]) - gap + way_ahead,
         .row = {row.velocity, row.spin, gain}};

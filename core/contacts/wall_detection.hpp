@@ -66,7 +66,7 @@ private:
     void add_touching(WallPair& pair, double reach);
     void add_gaps(WallPair& pair, std::span<const WallPoint> now, std::size_t touching);
     void drop_hidden(std::size_t from, std::size_t behind_all, double radius);
-    Vec3 free_velocity(const PlacedWall& wall, const Motion& motion, std::size_t patch) const;
+    Vec3 free_velocity(const PlacedWall& wall, const Body& body, std::size_t patch) const;
     WallPoint nearest_on_path(
         const PlacedWall& wall, const WallPoint& now, const WallPoint& at_end, const Vec3& velocity) const;
     WallTouch touch(const WallMeeting& meeting, std::uint32_t slot) const;

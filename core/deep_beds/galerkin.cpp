@@ -298,7 +298,7 @@ CoarseEnergy coarse_energy(const Loads& loads, const HatGrid& grid, const State&
         const auto g = static_cast<std::size_t>(k);
         GroupSum sum(groups.list[g], of, loads.list);
         for (auto i = groups.list[g].begin; i < groups.list[g].end; ++i)
-            sum.add(groups.sphere[i], state.motion[groups.sphere[i]].inverse_mass);
+            sum.add(groups.sphere[i], state.body(groups.sphere[i]).inverse_mass);
         sums[g] = sum.result();
     }
 

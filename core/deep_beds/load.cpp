@@ -40,19 +40,19 @@ void measure_power(Load& load, const WholeContact<wall, R>& own, const Contact& 
 
 /// A load without its place. @param packs those of the contacts, with the motion of walls
 template <bool wall, class R>
-Load load_of(const TileContacts& contacts, const PackSpan& packs, std::size_t k, Motion* motion)
+Load load_of(const TileContacts& contacts, const PackSpan& packs, std::size_t k, Body* bodies)
 {
     const Contact c = contacts.contact(k);
     const RollingRow rolling = R::rolling ? contacts.rolling(k) : RollingRow{};
     Load load;
-    measure_power<wall, R>(load, whole_contact<wall, R>(packs, k, motion), c, rolling);
+    measure_power<wall, R>(load, whole_contact<wall, R>(packs, k, bodies), c, rolling);
     load.a = c.a;
     load.impulse = c.impulse;
     if constexpr (!wall) load.b = c.b;
     if constexpr (R::spin) load.turn_a = load.turn_b = -c.arm_scale * c.normal.cross(c.impulse);
     if constexpr (R::rolling) {
-        load.turn_a += rolling.impulse / motion[c.a].radius;
-        if constexpr (!wall) load.turn_b -= rolling.impulse / motion[c.b].radius;
+        load.turn_a += rolling.impulse / bodies[c.a].spin_radius;
+        if constexpr (!wall) load.turn_b -= rolling.impulse / bodies[c.b].spin_radius;
     }
     return load;
 }
@@ -60,7 +60,7 @@ Load load_of(const TileContacts& contacts, const PackSpan& packs, std::size_t k,
 HatPlace place_of(const TileContacts& contacts, std::size_t k, const State& state, const HatGrid& grid)
 {
     const auto a = static_cast<std::size_t>(contacts.a(k));
-    return grid.place_of(state.position[a] - state.radius(a) * contacts.normal(k));
+    return grid.place_of(state.position[a] - state.radius[a] * contacts.normal(k));
 }
 
 /// @return behind the last of them
@@ -69,7 +69,7 @@ Load* find_tile_loads(Load* next, TileContacts& contacts, State& state, const Ha
 {
     for (const std::size_t k : contacts.indices()) {
         if (!contacts.is_loaded(k)) continue;
-        *next = load_of<wall, R>(contacts, contacts.span(), k, state.motion.data());
+        *next = load_of<wall, R>(contacts, contacts.span(), k, state.bodies.data());
         next++->place = place_of(contacts, k, state, grid);
     }
     return next;
@@ -98,7 +98,7 @@ void append_piston_loads(Loads& loads, ContactNetwork& network, const PistonGrou
             moves[k / pack_size].velocity[d][k % pack_size] = row.velocity[d];
             moves[k / pack_size].spin[d][k % pack_size] = row.spin[d];
         }
-        Load& load = loads.list.emplace_back(load_of<true, AtWalls>(contacts, packs, k, state.motion.data()));
+        Load& load = loads.list.emplace_back(load_of<true, AtWalls>(contacts, packs, k, state.bodies.data()));
         load.piston = piston;
         load.place = place_of(contacts, k, state, grid);
     }

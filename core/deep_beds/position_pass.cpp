@@ -13,16 +13,15 @@ namespace
 
 void separate_spheres(const Contact& c, State& state, const Periodicity& periodicity)
 {
-    const Motion& a = state.motion[c.a];
-    const Motion& b = state.motion[c.b];
+    const double a = state.body(c.a).inverse_mass, b = state.body(c.b).inverse_mass;
     const Vec3 across = periodicity.nearest_image(state.position[c.a] - state.position[c.b]);
     const double distance = across.norm();
-    const double overlap = a.radius + b.radius - distance;
+    const double overlap = state.radius[c.a] + state.radius[c.b] - distance;
     if (overlap <= 0.0) return;
     const Vec3 normal = distance > 0.0 ? Vec3(across / distance) : c.normal;
-    const Vec3 shift = projected_share * overlap / (a.inverse_mass + b.inverse_mass) * normal;
-    state.position[c.a] += a.inverse_mass * shift;
-    state.position[c.b] -= b.inverse_mass * shift;
+    const Vec3 shift = projected_share * overlap / (a + b) * normal;
+    state.position[c.a] += a * shift;
+    state.position[c.b] -= b * shift;
 }
 
 /// The wall is taken for flat within a step: its gap is n·x less the level found when the step began. Returns by what
@@ -43,7 +42,7 @@ double separate_from_piston(const Contact& c, const PlacedWall& began, const Mod
     const double overlap = c.wall_level + c.normal.dot(way_of(began, model, state) - state.position[c.a]);
     if (overlap <= 0.0) return 0.0;
     const double along_guide = c.normal.dot(piston.guide);
-    const double inverse_mass = state.motion[c.a].inverse_mass;
+    const double inverse_mass = state.body(c.a).inverse_mass;
     const double piston_inverse_mass = piston.is_free(state.time) ? 1.0 / piston.mass : 0.0;
     const double shift = projected_share * overlap / (inverse_mass + along_guide * along_guide * piston_inverse_mass);
     state.position[c.a] += inverse_mass * shift * c.normal;

@@ -82,23 +82,23 @@ Growth find_growth(const Loads& loads, const HatGrid& grid, const State& state, 
 }
 
 /// @param share by which each loaded contact grows. @return behind the last of them
-template <bool wall, class R> const double* scale(TileContacts& contacts, const double* share, Motion* motion)
+template <bool wall, class R> const double* scale(TileContacts& contacts, const double* share, Body* bodies)
 {
     for (const std::size_t k : contacts.indices()) {
         if (!contacts.is_loaded(k)) continue;
-        whole_contact<wall, R>(contacts.span(), k, motion).grow(packs::Numbers<1>{*share});
+        whole_contact<wall, R>(contacts.span(), k, bodies).grow(packs::Numbers<1>{*share});
         ++share;
     }
     return share;
 }
 
 template <class R>
-void apply(ContactNetwork& network, const Loads& loads, const std::vector<double>& growth, Motion* motion)
+void apply(ContactNetwork& network, const Loads& loads, const std::vector<double>& growth, Body* bodies)
 {
     const auto scale_tile = [&](std::size_t tile) {
         const double* const share = growth.data() + loads.first[tile];
         scale<true, R>(
-            network.contacts.walls[tile], scale<false, R>(network.contacts.spheres[tile], share, motion), motion);
+            network.contacts.walls[tile], scale<false, R>(network.contacts.spheres[tile], share, bodies), bodies);
     };
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) { crew.color_by_color(scale_tile); });
 }
@@ -143,11 +143,11 @@ ScalingReport scale_pressure(ContactNetwork& network, PistonGroup& pistons, Stat
     }
     if (largest == 0.0) return {.corrections = 1, .refused = 1};
 
-    Motion* motion = state.motion.data();
-    with_rows(model.physics, [&](auto rows) { apply<decltype(rows)>(network, loads, growth, motion); });
+    Body* bodies = state.bodies.data();
+    with_rows(model.physics, [&](auto rows) { apply<decltype(rows)>(network, loads, growth, bodies); });
     if (!pistons.empty()) {
         growth.erase(growth.begin(), growth.begin() + static_cast<std::ptrdiff_t>(loads.first_of_pistons()));
-        pistons.scale(growth, motion);
+        pistons.scale(growth, bodies);
     }
     return {.corrections = 1, .largest = largest};
 }
@@ -157,7 +157,7 @@ ScalingReport correct_pressures(
 {
     if (!model.solver.pressure_scaling) return {};
     const int sweeps = std::min(sweeps_before, model.solver.max_sweeps - 1);
-    const double change = sweep_contacts(sweeps, network, pistons, state.motion, model.physics, warm_size);
+    const double change = sweep_contacts(sweeps, network, pistons, state.bodies, model.physics, warm_size);
     ScalingReport report;
     if (needs_scaling(change, state, model)) report = scale_pressure(network, pistons, state, model);
     report.sweeps = sweeps;

@@ -14,7 +14,7 @@ struct StepLength;
 struct LawOfStep {
     double h;                     ///< of this step or sub-step [s]
     double threshold_speed = 0.0; ///< slowest impact: that of the whole step [m/s]
-    double elastic_speed = 0.0;   ///< opening so, a spring gives back all that it holds [m/s]
+    double elastic_speed = 0.0;   ///< opening so, a spring gives back all that it stores [m/s]
     bool rigid = false;           ///< `projected`
     double min_sweeps = 2.0;      ///< N_min
     double push_out_speed = 0.0;  ///< p [m/s]

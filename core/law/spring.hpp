@@ -3,7 +3,7 @@
 
 #include "core/law/law_of_step.hpp"
 
-/// The spring of a contact: how soft it is, what it holds, and what of it goes on to the next step.
+/// The spring of a contact: how soft it is, what it stores, and what of it goes on to the next step.
 ///
 /// Its compression κ is what of the overlap a load has pressed. It is stored as an energy, so that no step can take out
 /// more than was put in: METHOD, energy.
@@ -39,7 +39,7 @@ template <class N>
     return way * way * (per_share / feedback_share<N>(compliance, inverse_mass_sum, step) - 0.25);
 }
 
-/// What a spring holds, as the square of a length [m²]: κ² + h κ u_n + h² u_n²/(8 Υ share).
+/// What a spring stores, as the square of a length [m²]: κ² + h κ u_n + h² u_n²/(8 Υ share).
 template <class N>
 [[gnu::always_inline]] inline N spring_square(
     const N& kappa, const N& u_n, const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
@@ -84,18 +84,18 @@ template <class N>
     return kappa - step.h * (u_n + gives_way);
 }
 
-/// What a contact hands on of its spring is what that holds, as the square of a length: when a curved wall turns the
-/// normal, u_n changes, and the next step makes that κ of it which holds as much. A spring that had no load in the step
-/// holds what it did, and has lost no more of its κ than it has opened. 0: there is no spring, or none could hold so
-/// little.
-/// @param held at the beginning of the step [m²]
+/// What a contact hands on of its spring is what that stores, as the square of a length: when a curved wall turns the
+/// normal, u_n changes, and the next step makes that κ of it which stores as much. A spring that had no load in the
+/// step stores what it did, and has lost no more of its κ than it has opened. 0: there is no spring, or none could hold
+/// so little.
+/// @param stored at the beginning of the step [m²]
 template <class N>
-[[gnu::always_inline]] inline N handed_on(const N& kappa_after, const N& held, const N& u_n, const N& impulse,
+[[gnu::always_inline]] inline N handed_on(const N& kappa_after, const N& stored, const N& u_n, const N& impulse,
     const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
 {
     const N square = spring_square<N>(kappa_after, u_n, compliance, inverse_mass_sum, step);
     const N loaded = kappa_after > touching_gap * step.min_diameter ? square : N{};
-    return impulse > 0.0 ? loaded : held;
+    return impulse > 0.0 ? loaded : stored;
 }
 
 /// The κ with which a step begins, of what the step before has handed on.

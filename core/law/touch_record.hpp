@@ -63,7 +63,8 @@ inline TouchRecord noted(
     else
         touch.note(is_loaded || kind == ContactKind::yielding ? TouchRecord::loaded : TouchRecord::unloaded);
     const double pressed = law.rigid ? rigid_yield_overlap : pressed_overlap;
-    const bool deepens = is_loaded && u_n<0.0, is_deep = overlap> jamming_overlap;
+    const bool deepens = is_loaded && u_n < 0.0;
+    const bool is_deep = overlap > jamming_overlap;
     if (overlap <= pressed && !(touch.is_jammed() && overlap > jammed_overlap))
         touch.note_hold();
     else

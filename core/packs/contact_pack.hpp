@@ -12,13 +12,13 @@ namespace talus
 /// Lanes of a pack: contacts that a wide register solves at once.
 inline constexpr int pack_size = 8;
 
-/// Eight contacts, no two of which share a sphere, so that their order does not matter: all that a sweep streams, lane
+/// Eight contacts, no two of which share a body, so that their order does not matter: all that a sweep streams, lane
 /// beside lane, 104 B a contact. They are filled from lane 0 on; a lane that is empty has a = b = −1, and zeros. A lane
 /// that holds two spheres which do not touch has zeros for what the laws make: a sweep changes nothing by it.
 struct alignas(64) ContactPack {
     // Placed by assembly (PackFiller), read by all.
-    std::int32_t a[pack_size]; ///< sphere
-    std::int32_t b[pack_size]; ///< sphere or, in packs of wall contacts, wall
+    std::int32_t a[pack_size]; ///< body that a sweep changes, of the sphere with the same index (State::body_of)
+    std::int32_t b[pack_size]; ///< likewise or, in packs of wall contacts, the wall
 
     // Found by detection and recalled from materials, read by laws and sweeps.
     double normal[3][pack_size]; ///< n, unit, from b to a
@@ -44,7 +44,7 @@ struct alignas(64) RecordPack {
     double inverse_mass_sum[pack_size]; ///< W [1/kg]
     double compliance[pack_size];       ///< Σ_n [1/kg]
     float compression[pack_size];       ///< κ: what of the overlap a load has pressed [m]; −∞: it will keep none
-    float held[pack_size];              ///< what its spring held before the step, as the square of a length [m²]
+    float stored[pack_size];            ///< what its spring stored before the step, as the square of a length [m²]
     float spring[pack_size];            ///< Σ_n of its spring, also where it is rigid in this step [1/kg]
     float push[pack_size];              ///< what it may put in by pushing out, by its impulse [m/s]
     float restitution[pack_size];       ///< e

@@ -23,10 +23,10 @@ inline constexpr std::size_t row_variants = 8;
 
 /// The passes over the contacts of one tile, those between spheres first, for one instruction set and one `Rows`.
 /// Whichever it is, the bits of the results are the same.
-/// @param motion of all spheres, as 8 numbers each: v, 1/m, a, r
+/// @param bodies all, as 8 numbers each: v, 1/m, a, r
 struct SweepKernel {
-    using Sweep = SweepSums (*)(const PackSpan& spheres, const PackSpan& walls, double* motion, double relaxation);
-    using Pass = SweepSums (*)(const PackSpan& spheres, const PackSpan& walls, double* motion);
+    using Sweep = SweepSums (*)(const PackSpan& spheres, const PackSpan& walls, double* bodies, double relaxation);
+    using Pass = SweepSums (*)(const PackSpan& spheres, const PackSpan& walls, double* bodies);
 
     Sweep relax = nullptr;     ///< every contact once
     Pass measure = nullptr;    ///< what an unrelaxed sweep would change if all contacts were relaxed at once

@@ -4,37 +4,36 @@
 #include "core/law/coulomb.hpp"
 #include "core/packs/kernels.hpp"
 #include "core/packs/numbers.hpp"
+#include "core/world/solid_sphere.hpp"
 
 /// The sweep on packs, METHOD (6) to (8), written once for registers of 2, 4 and 8 numbers: `width` contacts at a time.
 namespace talus::packs
 {
 
-constexpr double inverse_inertia = 2.5; ///< times m r²
-constexpr std::int32_t motion_size = 8; ///< numbers of a sphere's motion
+constexpr std::int32_t body_size = 8; ///< numbers of a Body
 
 /// Of a lane that is not in use.
-template <int width> constexpr double no_motion[motion_size] = {0, 0, 0, 0, 0, 0, 0, 1};
+template <int width> constexpr double no_body[body_size] = {0, 0, 0, 0, 0, 0, 0, 1};
 
-/// The motion of `width` spheres, number beside number. @tparam full no lane is empty
-template <int width, bool full> struct Spheres {
-    Numbers<width> number[motion_size];
+/// `width` bodies, number beside number. @tparam full no lane is empty
+template <int width, bool full> struct Bodies {
+    Numbers<width> number[body_size];
 
-    [[gnu::always_inline]] void gather(const std::int32_t* sphere, const double* motion)
+    [[gnu::always_inline]] void gather(const std::int32_t* body, const double* bodies)
     {
         const double* from[width];
 #pragma GCC unroll 8
         for (int lane = 0; lane < width; ++lane)
-            from[lane] =
-                full || sphere[lane] >= 0 ? motion + std::int64_t{motion_size} * sphere[lane] : no_motion<width>;
+            from[lane] = full || body[lane] >= 0 ? bodies + std::int64_t{body_size} * body[lane] : no_body<width>;
         packs::gather<width>(number, from);
     }
-    [[gnu::always_inline]] void scatter(const std::int32_t* sphere, double* motion)
+    [[gnu::always_inline]] void scatter(const std::int32_t* body, double* bodies)
     {
         double* to[width];
 #pragma GCC unroll 8
         for (int lane = 0; lane < width; ++lane)
-            to[lane] = full || sphere[lane] >= 0 ? motion + std::int64_t{motion_size} * sphere[lane] : nullptr;
-        packs::scatter<width, motion_size, full>(number, to);
+            to[lane] = full || body[lane] >= 0 ? bodies + std::int64_t{body_size} * body[lane] : nullptr;
+        packs::scatter<width, body_size, full>(number, to);
     }
     [[gnu::always_inline]] Vector<width> velocity() const
     {
@@ -48,7 +47,7 @@ template <int width, bool full> struct Spheres {
     {
         return {number[4], number[5], number[6]};
     }
-    [[gnu::always_inline]] Numbers<width> radius() const
+    [[gnu::always_inline]] Numbers<width> spin_radius() const
     {
         return number[7];
     }
@@ -82,26 +81,26 @@ template <int width> struct Sums {
     }
 };
 
-/// `width` contacts of a pack, from lane `first` on, and their spheres.
+/// `width` contacts of a pack, from lane `first` on, and their bodies.
 template <int width, bool wall, class R, bool full> struct Contacts {
     static constexpr bool spins = R::spin;
 
     ContactPack& pack;
     RollingPack* rolling;
     const WallPack* walls;
-    double* motion;
+    double* bodies;
     int first;
-    Spheres<width, full> a, b;
+    Bodies<width, full> a, b;
     Vector<width> normal;
     Numbers<width> arm_scale;
 
-    /// @param p the pack; @param lane of it, the first; @param spheres their motion
-    [[gnu::always_inline]] Contacts(const PackSpan& packs, std::size_t p, double* spheres, int lane)
+    /// @param p the pack; @param lane of it, the first; @param of_all all bodies
+    [[gnu::always_inline]] Contacts(const PackSpan& packs, std::size_t p, double* of_all, int lane)
         : pack(packs.contact[p]), rolling(R::rolling ? packs.rolling + p : nullptr),
-          walls(wall && R::moving_walls ? packs.wall + p : nullptr), motion(spheres), first(lane)
+          walls(wall && R::moving_walls ? packs.wall + p : nullptr), bodies(of_all), first(lane)
     {
-        a.gather(pack.a + first, motion);
-        if constexpr (!wall) b.gather(pack.b + first, motion);
+        a.gather(pack.a + first, bodies);
+        if constexpr (!wall) b.gather(pack.b + first, bodies);
         normal = Vector<width>::load(pack.normal, first);
         arm_scale = load<width>(pack.arm_scale + first);
     }
@@ -132,8 +131,9 @@ template <int width, bool wall, class R, bool full> struct Contacts {
         if constexpr (!wall) b.set_velocity(b.velocity().plus(p, -b.inverse_mass()));
         if constexpr (spins) {
             const Vector<width> turn = (normal * arm_scale).cross(p);
-            a.set_rim_velocity(a.rim_velocity().plus(turn, -inverse_inertia * a.inverse_mass()));
-            if constexpr (!wall) b.set_rim_velocity(b.rim_velocity().plus(turn, -inverse_inertia * b.inverse_mass()));
+            a.set_rim_velocity(a.rim_velocity().plus(turn, -inverse_inertia_factor * a.inverse_mass()));
+            if constexpr (!wall)
+                b.set_rim_velocity(b.rim_velocity().plus(turn, -inverse_inertia_factor * b.inverse_mass()));
         }
     }
 
@@ -148,7 +148,7 @@ template <int width, bool wall, class R, bool full> struct Contacts {
             u_n - load<width>(pack.target + first), mass, fused<width>(-inverse_mass_sum(), mass, one) * old_normal);
         Numbers<width> tangent_mass = load<width>(pack.tangent_mass + first), rigid_mass = tangent_mass;
         if constexpr (spins) // 1/W
-            rigid_mass = fused<width>(inverse_inertia * (arm_scale * arm_scale), tangent_mass, tangent_mass);
+            rigid_mass = fused<width>(inverse_inertia_factor * (arm_scale * arm_scale), tangent_mass, tangent_mass);
         const Numbers<width> of_parting = (u_n - load<width>(pack.parting + first)) * rigid_mass;
         const Numbers<width> wanted =
             fused<width>(none - relaxation, of_spring < of_parting ? of_parting : of_spring, old_normal);
@@ -164,8 +164,8 @@ template <int width, bool wall, class R, bool full> struct Contacts {
     /// Of a relative to b, or to the wall [rad/s].
     [[gnu::always_inline]] Vector<width> spin() const
     {
-        Vector<width> spin = a.rim_velocity() * (1.0 / a.radius());
-        if constexpr (!wall) spin = spin - b.rim_velocity() * (1.0 / b.radius());
+        Vector<width> spin = a.rim_velocity() * (1.0 / a.spin_radius());
+        if constexpr (!wall) spin = spin - b.rim_velocity() * (1.0 / b.spin_radius());
         if constexpr (wall && R::moving_walls) spin = spin - Vector<width>::load(walls->spin, first);
         return spin;
     }
@@ -184,15 +184,16 @@ template <int width, bool wall, class R, bool full> struct Contacts {
     /// ω ← ω + I⁻¹ τ.
     [[gnu::always_inline]] void apply_rolling(const Vector<width>& torque)
     {
-        a.set_rim_velocity(a.rim_velocity() + torque * (inverse_inertia * a.inverse_mass() / a.radius()));
+        a.set_rim_velocity(a.rim_velocity() + torque * (inverse_inertia_factor * a.inverse_mass() / a.spin_radius()));
         if constexpr (!wall)
-            b.set_rim_velocity(b.rim_velocity() - torque * (inverse_inertia * b.inverse_mass() / b.radius()));
+            b.set_rim_velocity(
+                b.rim_velocity() - torque * (inverse_inertia_factor * b.inverse_mass() / b.spin_radius()));
     }
 
     [[gnu::always_inline]] void put_back()
     {
-        a.scatter(pack.a + first, motion);
-        if constexpr (!wall) b.scatter(pack.b + first, motion);
+        a.scatter(pack.a + first, bodies);
+        if constexpr (!wall) b.scatter(pack.b + first, bodies);
     }
 
     template <bool apply_change> [[gnu::always_inline]] void relax(double relaxation, Sums<width>& sums)
@@ -262,7 +263,7 @@ constexpr std::size_t spheres_ahead = 2; ///< packs whose spheres are
 
 /// Asks for what the packs to come will need: beyond the second cache a sweep would wait for it most of its time.
 template <bool wall, class R>
-[[gnu::always_inline]] inline void prefetch(const PackSpan& packs, std::size_t p, const double* motion)
+[[gnu::always_inline]] inline void prefetch(const PackSpan& packs, std::size_t p, const double* bodies)
 {
     constexpr std::size_t line = 64;
     if (p + packs_ahead < packs.count) {
@@ -272,54 +273,54 @@ template <bool wall, class R>
     if (p + spheres_ahead < packs.count) {
         const ContactPack& pack = packs.contact[p + spheres_ahead];
         for (int lane = 0; lane < pack_size; ++lane) {
-            __builtin_prefetch(motion + std::int64_t{motion_size} * pack.a[lane], 1);
-            if constexpr (!wall) __builtin_prefetch(motion + std::int64_t{motion_size} * pack.b[lane], 1);
+            __builtin_prefetch(bodies + std::int64_t{body_size} * pack.a[lane], 1);
+            if constexpr (!wall) __builtin_prefetch(bodies + std::int64_t{body_size} * pack.b[lane], 1);
         }
     }
 }
 
 /// Calls visit(contacts) for all contacts of these packs, `width` at a time.
 template <int width, bool wall, class R, class Visit>
-[[gnu::always_inline]] inline void for_each_group(const PackSpan& packs, double* motion, Visit visit)
+[[gnu::always_inline]] inline void for_each_group(const PackSpan& packs, double* bodies, Visit visit)
 {
     for (std::size_t p = 0; p < packs.count; ++p) {
-        prefetch<wall, R>(packs, p, motion);
+        prefetch<wall, R>(packs, p, bodies);
         for (int first = 0; first < pack_size; first += width) {
             if (packs.contact[p].a[first + width - 1] >= 0)
-                visit(Contacts<width, wall, R, true>(packs, p, motion, first));
+                visit(Contacts<width, wall, R, true>(packs, p, bodies, first));
             else
-                visit(Contacts<width, wall, R, false>(packs, p, motion, first));
+                visit(Contacts<width, wall, R, false>(packs, p, bodies, first));
         }
     }
 }
 
 template <int width, class R, bool apply_change>
-SweepSums relax(const PackSpan& spheres, const PackSpan& walls, double* motion, double relaxation)
+SweepSums relax(const PackSpan& spheres, const PackSpan& walls, double* bodies, double relaxation)
 {
     Sums<width> sums;
     const auto visit = [&](auto contacts) __attribute__((always_inline))
     {
         contacts.template relax<apply_change>(relaxation, sums);
     };
-    for_each_group<width, false, R>(spheres, motion, visit);
-    for_each_group<width, true, R>(walls, motion, visit);
+    for_each_group<width, false, R>(spheres, bodies, visit);
+    for_each_group<width, true, R>(walls, bodies, visit);
     return sums.total();
 }
 
-template <int width, class R> SweepSums measure(const PackSpan& spheres, const PackSpan& walls, double* motion)
+template <int width, class R> SweepSums measure(const PackSpan& spheres, const PackSpan& walls, double* bodies)
 {
-    return relax<width, R, false>(spheres, walls, motion, 1.0);
+    return relax<width, R, false>(spheres, walls, bodies, 1.0);
 }
 
-template <int width, class R> SweepSums warm_start(const PackSpan& spheres, const PackSpan& walls, double* motion)
+template <int width, class R> SweepSums warm_start(const PackSpan& spheres, const PackSpan& walls, double* bodies)
 {
     Sums<width> sums;
     const auto visit = [&](auto contacts) __attribute__((always_inline))
     {
         contacts.warm_start(sums);
     };
-    for_each_group<width, false, R>(spheres, motion, visit);
-    for_each_group<width, true, R>(walls, motion, visit);
+    for_each_group<width, false, R>(spheres, bodies, visit);
+    for_each_group<width, true, R>(walls, bodies, visit);
     return sums.total();
 }
 

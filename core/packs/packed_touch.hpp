@@ -11,20 +11,20 @@
 namespace talus::packs
 {
 
-/// Balls by sphere, number beside number.
-template <int width> struct Balls {
-    Vector<width> center;
-    Numbers<width> radius;
+/// The first `count` numbers of the places of spheres, number beside number.
+template <int width, int count> struct Places {
+    Numbers<width> number[count];
 
-    [[gnu::always_inline]] Balls(const std::int32_t* sphere, const ReachBall* balls)
+    [[gnu::always_inline]] Places(const std::int32_t* sphere, const SpherePlace* places)
     {
         const double* records[width];
-        for (int lane = 0; lane < width; ++lane) records[lane] = balls[sphere[lane]].center;
-        Numbers<width> numbers[4];
-        gather<width>(numbers, records);
-        center = {numbers[0], numbers[1], numbers[2]};
-        radius = numbers[3];
+        for (int lane = 0; lane < width; ++lane) records[lane] = places[sphere[lane]].center;
+        gather<width>(number, records);
     }
+    [[gnu::always_inline]] Vector<width> center() const { return {number[0], number[1], number[2]}; }
+    [[gnu::always_inline]] const Numbers<width>& radius() const { return number[3]; }
+    [[gnu::always_inline]] Vector<width> velocity() const { return {number[4], number[5], number[6]}; }
+    [[gnu::always_inline]] const Numbers<width>& inverse_mass() const { return number[7]; }
 };
 
 /// The shortest of a difference of positions and its images.
@@ -37,9 +37,9 @@ template <int width>
 
 template <int width>
 [[gnu::always_inline]] inline Vector<width> across(
-    const Balls<width>& a, const Balls<width>& b, const StepConstants& step)
+    const Vector<width>& a, const Vector<width>& b, const StepConstants& step)
 {
-    const Vector<width> direct = a.center - b.center;
+    const Vector<width> direct = a - b;
     if (!step.is_periodic) return direct;
     return {nearest_image<width>(direct.x, step.cell_length[0]), nearest_image<width>(direct.y, step.cell_length[1]),
         nearest_image<width>(direct.z, step.cell_length[2])};
@@ -53,15 +53,16 @@ std::size_t find_near(const std::int32_t* pairs, std::uint32_t candidates, const
     for (std::uint32_t k = 0; k < candidates; k += width) {
         const int pairs_left = candidates - k < width ? static_cast<int>(candidates - k) : width;
         std::int32_t a[width], b[width];
+        Numbers<width> reaches;
         for (int lane = 0; lane < width; ++lane) {
             const std::uint32_t pair = lane < pairs_left ? k + static_cast<std::uint32_t>(lane) : k;
             a[lane] = pairs[2 * pair];
             b[lane] = pairs[2 * pair + 1];
+            reaches[lane] = spheres.reaches[a[lane]] + spheres.reaches[b[lane]];
         }
-        const Balls<width> ball_a(a, spheres.balls), ball_b(b, spheres.balls);
-        const Vector<width> apart = across<width>(ball_a, ball_b, step);
-        const Numbers<width> radii = ball_a.radius + ball_b.radius;
-        const Flags<width> meet = apart.dot(apart) <= radii * radii;
+        const Places<width, 4> place_a(a, spheres.places), place_b(b, spheres.places);
+        const Vector<width> apart = across<width>(place_a.center(), place_b.center(), step);
+        const Flags<width> meet = apart.dot(apart) <= reaches * reaches;
         for (int lane = 0; lane < pairs_left; ++lane) {
             near[count] = k + static_cast<std::uint32_t>(lane); // no branch: which are near is no pattern
             const bool loaded = CarriedRecords<width>::is_known(spheres.carried, k + static_cast<std::uint32_t>(lane));
@@ -73,26 +74,20 @@ std::size_t find_near(const std::int32_t* pairs, std::uint32_t candidates, const
 
 /// How the spheres a and b of these touches lie to each other and move. Returns which are within reach.
 template <int width>
-[[gnu::always_inline]] inline Flags<width> detect(ContactPack& contact, TouchPack& touch, int first,
-    const ReachBall* balls, const double* motion, const StepConstants& step)
+[[gnu::always_inline]] inline Flags<width> detect(
+    ContactPack& contact, TouchPack& touch, int first, const SpherePlace* places, const StepConstants& step)
 {
     std::int32_t sphere_a[width], sphere_b[width];
-    const double *motion_a[width], *motion_b[width];
     Flags<width> empty = {};
     for (int lane = 0; lane < width; ++lane) {
         const bool is_empty = contact.a[first + lane] < 0;
         sphere_a[lane] = is_empty ? 0 : contact.a[first + lane];
         sphere_b[lane] = is_empty ? 0 : contact.b[first + lane];
-        motion_a[lane] = motion + std::int64_t{pack_size} * sphere_a[lane];
-        motion_b[lane] = motion + std::int64_t{pack_size} * sphere_b[lane];
         empty[lane] = -static_cast<std::int64_t>(is_empty);
     }
-    Numbers<width> a[pack_size], b[pack_size];
-    gather<width>(a, motion_a);
-    gather<width>(b, motion_b);
-    const Vector<width> apart = across<width>(Balls<width>(sphere_a, balls), Balls<width>(sphere_b, balls), step);
-    const Vector<width> velocity{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    const Numbers<width> radii = a[7] + b[7], none = {}, one = none + 1.0;
+    const Places<width, 8> a(sphere_a, places), b(sphere_b, places);
+    const Vector<width> apart = across<width>(a.center(), b.center(), step), velocity = a.velocity() - b.velocity();
+    const Numbers<width> radii = a.radius() + b.radius(), none = {}, one = none + 1.0;
     const Numbers<width> square = apart.dot(apart), distance = root<Numbers<width>>(square);
 
     // A gap is laid where the spheres' free paths close it, or come nearest in this step.
@@ -113,10 +108,10 @@ template <int width>
     const Flags<width> within = (gap <= step.reach) | (gap + step.horizon * u_n <= 0.0);
     normal.store(contact.normal, first);
     store<width>(contact.arm_scale + first, distance_then * per_radii);
-    store<width>(touch.inverse_mass_sum + first, a[3] + b[3]);
+    store<width>(touch.inverse_mass_sum + first, a.inverse_mass() + b.inverse_mass());
     store<width>(touch.gap + first, gap);
-    store<width>(touch.diameter + first, 2.0 * smaller<Numbers<width>>(a[7], b[7]));
-    store<width>(touch.reduced_radius + first, a[7] * b[7] * per_radii);
+    store<width>(touch.diameter + first, 2.0 * smaller<Numbers<width>>(a.radius(), b.radius()));
+    store<width>(touch.reduced_radius + first, a.radius() * b.radius() * per_radii);
     store<width>(touch.u_n + first, u_n); // gravity is the same for both
     store<width>(touch.u_n_before + first, u_n);
     store<width>(touch.closes + first, closes);
@@ -173,7 +168,7 @@ template <int width>
     const N energy_of_one = energy_of_square<N>(none + 1.0, spring, w, step);
     store<width>(touch.stored_energy + first, keeps ? energy_of_one * square : none);
     store<width>(touch.push_out_energy + first, keeps ? energy_of_one * (square - square_before) : none);
-    store<width>(touch.held + first, keeps ? square_before : none);
+    store<width>(touch.stored + first, keeps ? square_before : none);
     store<width>(touch.spring + first, spring);
     store<width>(touch.compression + first, law.compression);
 }
@@ -206,7 +201,7 @@ template <int width>
     put(contact.target, law.target);
     put(touch.compliance, law.compliance);
     put(contact.parting, law.parting);
-    const N softer = w + law.compliance, turning = w * (1.0 + step.inverse_inertia * arm_scale * arm_scale);
+    const N softer = w + law.compliance, turning = w * (1.0 + step.inverse_inertia_factor * arm_scale * arm_scale);
     const N of_both = 1.0 / (softer * turning); // divisions are dear
     put(contact.normal_mass, turning * of_both);
     put(contact.tangent_mass, softer * of_both);
@@ -278,7 +273,7 @@ template <int width>
     store<width>(record.inverse_mass_sum + first, load<width>(touch.inverse_mass_sum + first));
     store<width>(record.compliance + first, load<width>(touch.compliance + first));
     store_floats<width>(record.compression + first, load<width>(touch.compression + first));
-    store_floats<width>(record.held + first, load<width>(touch.held + first));
+    store_floats<width>(record.stored + first, load<width>(touch.stored + first));
     store_floats<width>(record.spring + first, load<width>(touch.spring + first));
     store_floats<width>(record.push + first, load<width>(touch.push + first));
     store_floats<width>(record.restitution + first, load<width>(touch.restitution + first));
@@ -311,7 +306,7 @@ PackImpacts touch_spheres(
 #pragma GCC unroll 4
     for (int first = 0; first < pack_size; first += width) {
         recall<width>(contact, touch, record, first, spheres);
-        const Flags<width> within_reach = detect<width>(contact, touch, first, spheres.balls, spheres.motion, step);
+        const Flags<width> within_reach = detect<width>(contact, touch, first, spheres.places, step);
         make_contacts<width>(contact, record, touch, sums, impacts, first, within_reach, step);
     }
     return impacts;
@@ -363,8 +358,8 @@ unsigned hand_on(
         const N gap = load<width>(record.gap + first);
         const N kappa = compression_after<N>(load_floats<width>(record.compression + first), gap, u_n,
             load_floats<width>(record.restitution + first), law);
-        const N held = load_floats<width>(record.held + first);
-        const N square = handed_on<N>(kappa, held, u_n, along, spring, w, law);
+        const N stored = load_floats<width>(record.stored + first);
+        const N square = handed_on<N>(kappa, stored, u_n, along, spring, w, law);
         const N pushed = load_floats<width>(record.push + first) * along;
         const F kind = widened<width>(reinterpret_cast<const std::uint8_t*>(record.kind) + first);
         const auto put = [&](double* sums, const N& numbers) __attribute__((always_inline))

@@ -10,10 +10,10 @@ namespace talus
 /// Numbers that all contacts of a step share.
 struct StepConstants {
     LawOfStep law;
-    double reach;           ///< of open contacts [m]
-    double horizon;         ///< how far ahead a gap is looked at [s]
-    double inverse_inertia; ///< 5/2; 0 where spheres do not turn
-    double cell_length[3];  ///< of periodic axes [m], else infinite
+    double reach;                  ///< of open contacts [m]
+    double horizon;                ///< how far ahead a gap is looked at [s]
+    double inverse_inertia_factor; ///< 5/2; 0 where spheres do not turn
+    double cell_length[3];         ///< of periodic axes [m], else infinite
     bool is_periodic;
 };
 
@@ -41,7 +41,7 @@ struct alignas(64) TouchPack {
     std::int64_t kind[pack_size];      ///< ContactKind
     double compliance[pack_size];      ///< Σ_n [1/kg]
     double spring[pack_size];          ///< that of its spring, also where it is rigid [1/kg]
-    double held[pack_size];            ///< what that held before pushing out puts in more [m²]
+    double stored[pack_size];          ///< what that stored before pushing out puts in more [m²]
     double push[pack_size];            ///< of NormalLaw [m/s]
     double strain[pack_size];          ///< overlap, of that with which it yields, beyond that; else 0
     double impact_size[pack_size];     ///< of an impact [N s], else 0
@@ -49,17 +49,20 @@ struct alignas(64) TouchPack {
     double push_out_energy[pack_size]; ///< … of which pushing out has put in so much [J]
 };
 
-/// What a sphere can touch in this step meets this ball.
-struct ReachBall {
-    double center[3];
-    double radius;
+/// What detection reads of one sphere and of its body, as the step begins: one cache line, made by SphereAssembly.
+struct alignas(64) SpherePlace {
+    double center[3];    ///< x [m]
+    double radius;       ///< r [m]
+    double velocity[3];  ///< v⁽⁰⁾ of the centre [m/s]
+    double inverse_mass; ///< 1/m of its body [1/kg]
 };
-static_assert(sizeof(ReachBall) == 4 * sizeof(double) && offsetof(ReachBall, radius) == 3 * sizeof(double));
+static_assert(sizeof(SpherePlace) == 64 && offsetof(SpherePlace, radius) == 24 &&
+              offsetof(SpherePlace, velocity) == 32 && offsetof(SpherePlace, inverse_mass) == 56);
 
 /// What is known of all spheres, and of what the contacts of a tile carry, as plain numbers.
 struct SphereNumbers {
-    const ReachBall* balls;       ///< by sphere, with the centres that they have now
-    const double* motion;         ///< 8 for each sphere: v, 1/m, a, r
+    const SpherePlace* places;    ///< by sphere
+    const double* reaches;        ///< by sphere: from its centre, what it can touch in this step [m]
     const std::int32_t* material; ///< by sphere
     std::int32_t materials;       ///< how many there are
     const double* laws;           ///< 4 for each pair of materials: μ, e, μ_r, k

@@ -22,7 +22,7 @@ void MassFlow::watch(const Snapshot& now)
 {
     const double length = cell_length(now.model.periodicity);
     if (length == infinity) return;
-    for (const auto& m : now.state.motion) {
+    for (const auto& m : now.state.bodies) {
         const double passed = normal_.dot(m.velocity) * now.model.time_step / length;
         flowed_mass_ += passed / m.inverse_mass;
         flowed_count_ += passed;

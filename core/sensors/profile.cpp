@@ -54,9 +54,9 @@ void Profile::sample(const Snapshot& now)
     std::vector<Content> contents(bins_.count());
     const auto images = now.model.periodicity.neighbor_shifts();
     for (std::size_t i = 0; i < state.count(); ++i) {
-        const double r = state.radius(i), sphere_volume = 4.0 / 3.0 * std::numbers::pi * r * r * r;
+        const double r = state.radius[i], sphere_volume = 4.0 / 3.0 * std::numbers::pi * r * r * r;
         for (const Vec3& shift : images) {
-            const Vec3 x = state.position[i] + shift, v = bins_.components(x, state.motion[i].velocity);
+            const Vec3 x = state.position[i] + shift, v = bins_.components(x, state.body(i).velocity);
             bins_.for_each_share(x, r, [&](std::size_t bin, double share) {
                 contents[bin].add(share * sphere_volume, share * state.mass(i), v);
                 all.add(share * sphere_volume, share * state.mass(i), v);

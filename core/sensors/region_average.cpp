@@ -52,12 +52,12 @@ Content content_of(const Region& region, const Snapshot& now)
     const auto images = now.model.periodicity.neighbor_shifts();
     Content content;
     for (std::size_t i = 0; i < state.count(); ++i) {
-        const double r = state.radius(i);
+        const double r = state.radius[i];
         double share = 0.0;
         for (const Vec3& shift : images) share += ball_share(region, state.position[i] + shift, r);
         if (share == 0.0) continue;
         const double mass = share * state.mass(i);
-        const Vec3& v = state.motion[i].velocity;
+        const Vec3& v = state.body(i).velocity;
         content.spheres += share;
         content.contacts += share * loads[i].contacts;
         if (loads[i].contacts >= least_contacts) {
@@ -88,12 +88,12 @@ Tensor contact_virial(const Region& region, const Snapshot& now)
         return share * branch.norm();
     };
     for_each_loaded_sphere_contact(now.network, [&](const Contact& c) {
-        const double length = inside(c.a, -(state.radius(c.a) + 0.5 * c.gap) * c.normal) +
-                              inside(c.b, (state.radius(c.b) + 0.5 * c.gap) * c.normal);
+        const double length = inside(c.a, -(state.radius[c.a] + 0.5 * c.gap) * c.normal) +
+                              inside(c.b, (state.radius[c.b] + 0.5 * c.gap) * c.normal);
         virial += length * c.impulse * c.normal.transpose();
     });
     for_each_loaded_wall_contact(now.network, [&](const Contact& c) {
-        virial += inside(c.a, -(state.radius(c.a) + c.gap) * c.normal) * c.impulse * c.normal.transpose();
+        virial += inside(c.a, -(state.radius[c.a] + c.gap) * c.normal) * c.impulse * c.normal.transpose();
     });
     return virial / now.network.carried.impulse_step;
 }

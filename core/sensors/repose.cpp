@@ -16,12 +16,12 @@ namespace
 
 constexpr std::size_t sectors = 16;
 constexpr std::size_t octants = 8;
-constexpr double nothing = -infinity;
+constexpr double empty_sector = -infinity;
 
 /// The highest sphere top in each ring and sector, as heights above the base.
 struct Surface {
     double ring_width = 0.0;
-    std::vector<std::array<double, sectors>> top; ///< by ring; `nothing` where there is no sphere
+    std::vector<std::array<double, sectors>> top; ///< by ring; `empty_sector` where there is no sphere
 
     /// Mean height of some sectors of a ring; not a number where all are empty.
     double ring_mean(std::size_t ring, std::size_t first_sector, std::size_t count) const
@@ -45,7 +45,7 @@ double moving_share(const State& state, double fast)
     double moving = 0.0, all = 0.0;
     for (std::size_t i = 0; i < state.count(); ++i) {
         all += state.mass(i);
-        if (state.motion[i].velocity.norm() > fast) moving += state.mass(i);
+        if (state.body(i).velocity.norm() > fast) moving += state.mass(i);
     }
     return all > 0.0 ? moving / all : 0.0;
 }
@@ -57,9 +57,9 @@ Surface find_surface(const State& state, const Vec3& base, const Vec3& up, doubl
     const Vec3 e1 = any_perpendicular(up);
     const Vec3 e2 = up.cross(e1);
     for (std::size_t i = 0; i < state.count(); ++i) {
-        if (state.motion[i].velocity.norm() > fast) continue;
+        if (state.body(i).velocity.norm() > fast) continue;
         const Vec3 x = state.position[i] - base;
-        const double height = x.dot(up) + state.radius(i);
+        const double height = x.dot(up) + state.radius[i];
         const double out = (x - x.dot(up) * up).norm();
         const auto ring = static_cast<std::size_t>(out / ring_width);
         const double turn = std::atan2(x.dot(e2), x.dot(e1)) / (2.0 * std::numbers::pi) + 0.5;
@@ -67,7 +67,7 @@ Surface find_surface(const State& state, const Vec3& base, const Vec3& up, doubl
         if (height <= 0.0 || ring > 100000) continue; // spheres that have fallen off, or fly far away
         if (ring >= surface.top.size()) {
             std::array<double, sectors> empty;
-            empty.fill(nothing);
+            empty.fill(empty_sector);
             surface.top.resize(ring + 1, empty);
         }
         surface.top[ring][sector] = std::max(surface.top[ring][sector], height);

@@ -27,7 +27,7 @@ void Slope::sample(const Snapshot& now)
         if (std::abs(s) > 0.5 * length_) continue;
         const auto row = static_cast<std::int64_t>(std::floor(s / width));
         const auto lane = static_cast<std::int64_t>(std::floor(x.dot(sideways) / width));
-        const double height = x.dot(up) + now.state.radius(i);
+        const double height = x.dot(up) + now.state.radius[i];
         const auto [cell, is_new] = top[row].try_emplace(lane, height);
         if (!is_new) cell->second = std::max(cell->second, height);
     }

@@ -27,8 +27,8 @@ void SphereTrack::sample(const Snapshot& now)
     const auto found = std::ranges::find(state.id, id_);
     if (found == state.id.end()) return;
     const auto i = static_cast<std::size_t>(found - state.id.begin());
-    const Motion& m = state.motion[i];
-    const std::array<Vec3, 3> vectors = {state.position[i], m.velocity, m.rim_velocity / m.radius};
+    const Body& body = state.body(i);
+    const std::array<Vec3, 3> vectors = {state.position[i], body.velocity, body.spin()};
     for (std::size_t k = 0; k < latest_.size(); ++k) latest_[k] = vectors[k / 3][static_cast<int>(k % 3)];
 }
 

@@ -58,7 +58,7 @@ void persist_way(Archive& archive, Translation& way)
 
 void Interventions::Drive::apply(Model& model) const
 {
-    model.walls[wall].motion = ended_at(from, told);
+    model.walls[wall].motion = ended_at(from, prescribed);
     for (const Translation& way : ways) model.walls[wall].motion.push_back(way);
     model.physics.moving_walls = true;
 }
@@ -98,19 +98,19 @@ void Interventions::load(Model& model, std::size_t piston, double force)
 void Interventions::persist(Archive& archive, Model& model)
 {
     if (archive.reading()) {
-        for (const Drive& drive : drives_) model.walls[drive.wall].motion = drive.told;
-        for (const Load& load : loads_) model.pistons[load.piston].load = load.told;
+        for (const Drive& drive : drives_) model.walls[drive.wall].motion = drive.prescribed;
+        for (const Load& load : loads_) model.pistons[load.piston].load = load.prescribed;
     }
     archive(any, taken_out, drives_, loads_);
     if (!archive.reading()) return;
     for (Drive& drive : drives_) {
         if (drive.wall >= model.walls.size()) throw ArchiveError("it is of a scene with more walls");
-        drive.told = model.walls[drive.wall].motion;
+        drive.prescribed = model.walls[drive.wall].motion;
         drive.apply(model);
     }
     for (Load& load : loads_) {
         if (load.piston >= model.pistons.size()) throw ArchiveError("it is of a scene with more walls of finite mass");
-        load.told = model.pistons[load.piston].load;
+        load.prescribed = model.pistons[load.piston].load;
         load.apply(model);
     }
 }

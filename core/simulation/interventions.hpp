@@ -13,8 +13,8 @@ namespace talus
 
 struct Simulation;
 
-/// What a program did to a simulation between its steps, which no scene tells: it is part of every checkpoint, and a
-/// summary says that there was something.
+/// What a program did to a simulation between its steps, which no scene prescribes: it is part of every checkpoint, and
+/// a summary says that there was something.
 class Interventions
 {
 public:
@@ -36,7 +36,7 @@ private:
         std::size_t wall = 0;
         double from = 0.0;             ///< [s]
         std::vector<Translation> ways; ///< one after the other, at most three
-        WallMotion told;               ///< by the scene
+        WallMotion prescribed;         ///< by the scene
 
         void apply(Model& model) const;
         void persist(Archive& archive);
@@ -44,7 +44,7 @@ private:
     struct Load {
         std::size_t piston = 0;
         double force = 0.0; ///< [N]
-        std::vector<LoadPoint> told;
+        std::vector<LoadPoint> prescribed;
 
         void apply(Model& model) const;
         void persist(Archive& archive) { archive(piston, force); }

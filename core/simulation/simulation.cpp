@@ -48,7 +48,7 @@ void complete(Simulation& simulation)
     Model& model = simulation.model;
     model.physics = model.needed_physics();
     Diameters diameters;
-    for (std::size_t i = 0; i < simulation.state.count(); ++i) diameters.add(2.0 * simulation.state.radius(i));
+    for (std::size_t i = 0; i < simulation.state.count(); ++i) diameters.add(2.0 * simulation.state.radius[i]);
     for (const Pour& pour : simulation.pours) diameters.add(pour.mixture, expected_count(pour, model.materials));
     diameters.put_into(model);
     if (model.solver.push_out_speed == infinity) model.solver.push_out_speed = usual_push_out_speed(model);
@@ -141,18 +141,18 @@ OverlapCheck check_overlaps(const Simulation& simulation)
 
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < state.count(); ++i)
-        boxes.push_back(Box{state.position[i], state.position[i]}.grown(state.radius(i)));
+        boxes.push_back(Box{state.position[i], state.position[i]}.grown(state.radius[i]));
     const auto& periodicity = simulation.model.periodicity;
     for (const auto& [a, b] : find_box_pairs(boxes, periodicity))
         note(
-            state.radius(a) + state.radius(b) - periodicity.nearest_image(state.position[a] - state.position[b]).norm(),
+            state.radius[a] + state.radius[b] - periodicity.nearest_image(state.position[a] - state.position[b]).norm(),
             state.id[a], state.id[b], -1);
 
     const auto walls = place_walls(simulation.model, state);
     for (std::size_t i = 0; i < state.count(); ++i)
         for (std::size_t w = 0; w < walls.size(); ++w)
             if (walls[w].stands())
-                note(-walls[w].gap(state.position[i], state.radius(i)), state.id[i], -1, static_cast<std::int32_t>(w));
+                note(-walls[w].gap(state.position[i], state.radius[i]), state.id[i], -1, static_cast<std::int32_t>(w));
     return check;
 }
 

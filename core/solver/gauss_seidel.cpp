@@ -15,13 +15,13 @@ namespace talus
 namespace
 {
 
-constexpr double unrelaxed = 1.0;         ///< ω of an ordinary sweep, and of all that measures
-constexpr std::size_t few_spheres = 1000; ///< that one thread copies faster than several
-constexpr double least_share = 0.1;       ///< of the tolerance, to which it may be tightened …
-constexpr double least_tolerance = 1e-3;  ///< … but no further than to this
-constexpr double errors_left = 2.0;       ///< tolerances that may be missing at the end, by how fast sweeps converge
-constexpr double slowest = 1e-5;          ///< 1 − ρ that differs from none
-constexpr double motion_share = 7.0;      ///< tolerances that errors may be of what contacts change of the motion
+constexpr double unrelaxed = 1.0;        ///< ω of an ordinary sweep, and of all that measures
+constexpr std::size_t few_bodies = 1000; ///< that one thread copies faster than several
+constexpr double least_share = 0.1;      ///< of the tolerance, to which it may be tightened …
+constexpr double least_tolerance = 1e-3; ///< … but no further than to this
+constexpr double errors_left = 2.0;      ///< tolerances that may be missing at the end, by how fast sweeps converge
+constexpr double slowest = 1e-5;         ///< 1 − ρ that differs from none
+constexpr double motion_share = 7.0;     ///< tolerances that errors may be of what contacts change of the motion
 
 std::size_t row_variant(const ModelledPhysics& physics)
 {
@@ -32,25 +32,25 @@ std::size_t row_variant(const ModelledPhysics& physics)
 struct TilePasses {
     const SweepKernel kernel;
     StepContacts& contacts;
-    double* motion;
+    double* bodies;
 
-    TilePasses(ContactNetwork& network, std::vector<Motion>& spheres, const ModelledPhysics& physics)
+    TilePasses(ContactNetwork& network, std::vector<Body>& of_all, const ModelledPhysics& physics)
         : kernel(fastest_kernels().sweep[row_variant(physics)]), contacts(network.contacts),
-          motion(reinterpret_cast<double*>(spheres.data()))
+          bodies(reinterpret_cast<double*>(of_all.data()))
     {
     }
 
     SweepSums relax(std::size_t tile, double relaxation) const
     {
-        return kernel.relax(contacts.spheres[tile].span(), contacts.walls[tile].span(), motion, relaxation);
+        return kernel.relax(contacts.spheres[tile].span(), contacts.walls[tile].span(), bodies, relaxation);
     }
     SweepSums measure(std::size_t tile) const
     {
-        return kernel.measure(contacts.spheres[tile].span(), contacts.walls[tile].span(), motion);
+        return kernel.measure(contacts.spheres[tile].span(), contacts.walls[tile].span(), bodies);
     }
     SweepSums warm_start(std::size_t tile) const
     {
-        return kernel.warm_start(contacts.spheres[tile].span(), contacts.walls[tile].span(), motion);
+        return kernel.warm_start(contacts.spheres[tile].span(), contacts.walls[tile].span(), bodies);
     }
 };
 
@@ -69,12 +69,12 @@ double share_of_tolerance(double change, double last_change)
     return left > slowest ? std::min(left, 1.0) : slowest;
 }
 
-/// Σ m |v − v⁽¹⁾|², twice the kinetic energy of what contacts have changed of the spheres' motion [J].
-double changed_motion(const std::vector<Vec3>& free_velocity, const std::vector<Motion>& motion)
+/// Σ m |v − v⁽¹⁾|², twice the kinetic energy of what contacts have changed of the motion [J].
+double changed_motion(const std::vector<Vec3>& free_velocity, const std::vector<Body>& bodies)
 {
     double sum = 0.0;
-    for (std::size_t i = 0; i < motion.size(); ++i)
-        sum += (motion[i].velocity - free_velocity[i]).squaredNorm() / motion[i].inverse_mass;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        sum += (bodies[i].velocity - free_velocity[i]).squaredNorm() / bodies[i].inverse_mass;
     return sum;
 }
 
@@ -116,11 +116,11 @@ private:
 };
 
 /// Every contact once. Called by all threads of the crew.
-void sweep(TileCrew& crew, const TilePasses& passes, PistonGroup& pistons, std::vector<Motion>& motion,
-    double relaxation, PartialSums& sums)
+void sweep(TileCrew& crew, const TilePasses& passes, PistonGroup& pistons, std::vector<Body>& bodies, double relaxation,
+    PartialSums& sums)
 {
     crew.color_by_color([&](std::size_t tile) { sums.of_tile[tile] = passes.relax(tile, relaxation); });
-    if (!pistons.empty()) crew.by_one([&] { sums.of_pistons = pistons.sweep(motion.data()); });
+    if (!pistons.empty()) crew.by_one([&] { sums.of_pistons = pistons.sweep(bodies.data()); });
 }
 
 } // namespace
@@ -133,16 +133,16 @@ void SolveReport::then(const SolveReport& next)
 }
 
 double apply_warm_start(
-    ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion, const ModelledPhysics& physics)
+    ContactNetwork& network, PistonGroup& pistons, std::vector<Body>& bodies, const ModelledPhysics& physics)
 {
-    network.contacts.free_velocity.resize(motion.size());
-#pragma omp parallel for schedule(static) if (motion.size() > few_spheres)
-    for (std::size_t i = 0; i < motion.size(); ++i) network.contacts.free_velocity[i] = motion[i].velocity;
-    const TilePasses passes(network, motion, physics);
+    network.contacts.free_velocity.resize(bodies.size());
+#pragma omp parallel for schedule(static) if (bodies.size() > few_bodies)
+    for (std::size_t i = 0; i < bodies.size(); ++i) network.contacts.free_velocity[i] = bodies[i].velocity;
+    const TilePasses passes(network, bodies, physics);
     PartialSums sums(network.list.tiles.count());
     const auto work = [&](std::size_t tile) { sums.of_tile[tile] = passes.warm_start(tile); };
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) { crew.color_by_color(work); });
-    return sums.total(unrelaxed).size + pistons.warm_start(motion.data());
+    return sums.total(unrelaxed).size + pistons.warm_start(bodies.data());
 }
 
 double tightened(double tolerance, double share)
@@ -162,22 +162,22 @@ double relaxation_of(int sweep, const ModelledPhysics& physics, const SolverSett
     return relaxed ? solver.relaxation : unrelaxed;
 }
 
-double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
+double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Body>& bodies,
     const ModelledPhysics& physics, double warm_size)
 {
     if (count == 0) return infinity;
-    const TilePasses passes(network, motion, physics);
+    const TilePasses passes(network, bodies, physics);
     PartialSums sums(network.list.tiles.count());
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
-        for (int k = 0; k < count; ++k) sweep(crew, passes, pistons, motion, unrelaxed, sums);
+        for (int k = 0; k < count; ++k) sweep(crew, passes, pistons, bodies, unrelaxed, sums);
     });
     return residual(sums.total(unrelaxed), warm_size);
 }
 
-SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
+SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Body>& bodies,
     const ModelledPhysics& physics, const SolverSettings& solver, double warm_size, int sweeps_made)
 {
-    const TilePasses passes(network, motion, physics);
+    const TilePasses passes(network, bodies, physics);
     const auto tiles = network.list.tiles.count();
     // Two sets of partial sums in turn: a slow thread may still read one sweep's while a fast one writes the next.
     std::array<PartialSums, 2> swept{PartialSums(tiles), PartialSums(tiles)};
@@ -192,7 +192,7 @@ SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::v
         while (!converged && sweeps < solver.max_sweeps) {
             auto& sums = swept[static_cast<std::size_t>(sweeps % 2)];
             const double relaxation = relaxation_of(sweeps, physics, solver);
-            sweep(crew, passes, pistons, motion, relaxation, sums);
+            sweep(crew, passes, pistons, bodies, relaxation, sums);
             ++sweeps;
             // ε after a sweep is about what the next one would ask for: as much less as this one asked for less than
             // the last.
@@ -202,14 +202,14 @@ SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::v
             const bool ready = sweeps >= solver.min_sweeps && (expected <= asked || change == 0.0);
             if (!ready && sweeps < solver.max_sweeps) continue;
             crew.all_at_once([&](std::size_t tile) { measured.of_tile[tile] = passes.measure(tile); });
-            if (!pistons.empty()) crew.by_one([&] { measured.of_pistons = pistons.measure(motion.data()); });
+            if (!pistons.empty()) crew.by_one([&] { measured.of_pistons = pistons.measure(bodies.data()); });
             const SweepSums sums_of_error = measured.total(unrelaxed);
             error = residual(sums_of_error, warm_size);
             converged = error <= asked;
             if (!converged || solver.stabilisation == Stabilisation::projected) continue;
             // Where loads are large beside what they change of the motion, errors that are small beside them are not,
             // and springs go on with them. (Rigid rows that contradict each other only grow with further sweeps.)
-            crew.by_one([&] { changed = changed_motion(network.contacts.free_velocity, motion); });
+            crew.by_one([&] { changed = changed_motion(network.contacts.free_velocity, bodies); });
             const double size = std::max(sums_of_error.size, warm_size);
             tolerance = tightened(solver.tolerance, size > 0.0 ? motion_share * std::sqrt(changed / size) : 1.0);
             converged = error <= tolerance;

@@ -21,7 +21,7 @@ struct SolveReport {
 /// Warm start: v ← v + M⁻¹ Gᵀ λ⁰ with the impulses in the contacts (METHOD (5); the note forgets it).
 /// Returns Σ W|λ⁰|². Notes v⁽¹⁾, with which the spheres come.
 double apply_warm_start(
-    ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion, const ModelledPhysics& physics);
+    ContactNetwork& network, PistonGroup& pistons, std::vector<Body>& bodies, const ModelledPhysics& physics);
 
 /// This share of a tolerance, but no less than a tenth of it, and not below 1e-3.
 double tightened(double tolerance, double share);
@@ -32,7 +32,7 @@ double relaxation_of(int sweep, const ModelledPhysics& physics, const SolverSett
 
 /// So many sweeps of projected Gauss–Seidel, as below, whatever the residual. Returns ε of the changes of
 /// the last; without one, infinity.
-double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
+double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Body>& bodies,
     const ModelledPhysics& physics, double warm_size);
 
 /// Projected Gauss–Seidel (Algorithm 3.1 of the note) on the contacts of the network: sweeps tile colour by tile
@@ -48,7 +48,7 @@ double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, 
 /// it did.
 /// @param warm_size Σ W|λ⁰|² of the warm start, where that is a measure
 /// @param sweeps_made sweeps of this step that were made before, and count
-SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Motion>& motion,
+SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Body>& bodies,
     const ModelledPhysics& physics, const SolverSettings& solver, double warm_size, int sweeps_made = 0);
 
 } // namespace talus

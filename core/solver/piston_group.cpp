@@ -54,7 +54,7 @@ private:
             body = made_.problem.body_count();
             made_.spheres.push_back(sphere);
             // without gravity: its velocity comes from the spheres in each sweep
-            add_sphere_body(made_.problem, state_.motion[sphere], model_.physics.spin, Vec3::Zero());
+            add_sphere_body(made_.problem, state_.body(sphere), model_.physics.spin, Vec3::Zero());
         }
         return body;
     }
@@ -65,7 +65,7 @@ private:
         const auto& basis = made_.bases.emplace_back(contact_basis(c.normal));
         const auto piston = static_cast<std::size_t>(model_.walls[c.b].piston);
         talus::add_contact(made_.problem, contacts_, k, basis, rows_,
-            {{body_of(c.a), sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, 1.0)},
+            {{body_of(c.a), sphere_rows(basis, rows_, state_.body(c.a), model_.physics.spin, 1.0, 1.0)},
                 {piston, piston_rows(basis, rows_, arms_[k])}});
         made_.warm_size += c.inverse_mass_sum * c.impulse.squaredNorm();
         if (model_.physics.rolling)
@@ -102,25 +102,25 @@ PistonGroup::PistonGroup(const ContactNetwork& network, const State& state, cons
     guides_.assign(sequence_.end() - static_cast<std::ptrdiff_t>(model.pistons.size()), sequence_.end());
 }
 
-double PistonGroup::warm_start(Motion* motion)
+double PistonGroup::warm_start(Body* bodies)
 {
-    fetch(motion);
+    fetch(bodies);
     for (const std::size_t k : sequence_) iterate_.add(k, own_.problem.rows_of(k, own_.warm_impulse));
-    put_back(motion);
+    put_back(bodies);
     return own_.warm_size;
 }
 
-SweepSums PistonGroup::sweep(Motion* motion)
+SweepSums PistonGroup::sweep(Body* bodies)
 {
-    fetch(motion);
+    fetch(bodies);
     const SweepSums sums = algorithm_.sweep(iterate_, sequence_);
-    put_back(motion);
+    put_back(bodies);
     return sums;
 }
 
-SweepSums PistonGroup::measure(const Motion* motion)
+SweepSums PistonGroup::measure(const Body* bodies)
 {
-    fetch(motion);
+    fetch(bodies);
     return algorithm_.measure(iterate_);
 }
 
@@ -131,13 +131,13 @@ WallRow PistonGroup::motion_at(std::size_t piston, const Vec3& arm) const
     return {velocity.head<3>() + spin.cross(arm), spin};
 }
 
-void PistonGroup::scale(const std::vector<double>& growth, Motion* motion)
+void PistonGroup::scale(const std::vector<double>& growth, Body* bodies)
 {
-    fetch(motion);
+    fetch(bodies);
     for (std::size_t k = 0; k < growth.size(); ++k)
         iterate_.add(k, growth[k] * own_.problem.rows_of(k, iterate_.impulse()));
     algorithm_.sweep(iterate_, guides_);
-    put_back(motion);
+    put_back(bodies);
 }
 
 void PistonGroup::store(ContactNetwork& network, State& state) const
@@ -163,22 +163,22 @@ void PistonGroup::store(ContactNetwork& network, State& state) const
     }
 }
 
-void PistonGroup::fetch(const Motion* motion)
+void PistonGroup::fetch(const Body* bodies)
 {
     const auto pistons = own_.problem.body_count() - own_.spheres.size();
     for (std::size_t k = 0; k < own_.spheres.size(); ++k) {
-        const Motion& m = motion[own_.spheres[k]];
+        const Body& m = bodies[own_.spheres[k]];
         auto velocity = own_.problem.dofs_of(pistons + k, iterate_.velocity());
         velocity.head<3>() = m.velocity;
         if (velocity.size() == 6) velocity.tail<3>() = m.rim_velocity;
     }
 }
 
-void PistonGroup::put_back(Motion* motion) const
+void PistonGroup::put_back(Body* bodies) const
 {
     const auto pistons = own_.problem.body_count() - own_.spheres.size();
     for (std::size_t k = 0; k < own_.spheres.size(); ++k) {
-        Motion& m = motion[own_.spheres[k]];
+        Body& m = bodies[own_.spheres[k]];
         const auto velocity = own_.problem.dofs_of(pistons + k, iterate_.velocity());
         m.velocity = velocity.head<3>();
         if (velocity.size() == 6) m.rim_velocity = velocity.tail<3>();

@@ -44,20 +44,20 @@ public:
     bool empty() const { return sequence_.empty(); }
 
     /// v ← v + M⁻¹ Gᵀ λ⁰ for the spheres and the pistons. Returns Σ W|λ⁰|² of the contacts.
-    double warm_start(Motion* motion);
+    double warm_start(Body* bodies);
 
     /// One sweep; returns the sums of what it did.
-    SweepSums sweep(Motion* motion);
+    SweepSums sweep(Body* bodies);
 
     /// The sums of ε at these velocities.
-    SweepSums measure(const Motion* motion);
+    SweepSums measure(const Body* bodies);
 
     /// How the surface of a piston moves at this arm from its centre.
     WallRow motion_at(std::size_t piston, const Vec3& arm) const;
 
     /// The impulses of contact k grow by the share growth[k], and velocities with them; then the guides take up what
     /// would leave them.
-    void scale(const std::vector<double>& growth, Motion* motion);
+    void scale(const std::vector<double>& growth, Body* bodies);
 
     /// Writes the impulses into the contacts, velocities and guide impulses into the pistons.
     void store(ContactNetwork& network, State& state) const;
@@ -69,8 +69,8 @@ private:
     std::vector<std::size_t> sequence_; ///< of the constraints
     std::vector<std::size_t> guides_;   ///< the last of them
 
-    void fetch(const Motion* motion);
-    void put_back(Motion* motion) const;
+    void fetch(const Body* bodies);
+    void put_back(Body* bodies) const;
 };
 
 } // namespace talus

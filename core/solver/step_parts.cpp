@@ -48,26 +48,26 @@ VectorXd in_rows(const Eigen::Matrix3d& basis, Index rows, const Vec3& vector, c
     return both;
 }
 
-void add_sphere_body(Problem& problem, const Motion& motion, bool spin, const Vec3& gain)
+void add_sphere_body(Problem& problem, const Body& body, bool spin, const Vec3& gain)
 {
-    VectorXd mass = VectorXd::Constant(spin ? 6 : 3, 1.0 / motion.inverse_mass), velocity(mass.size());
-    velocity.head<3>() = motion.velocity + gain;
+    VectorXd mass = VectorXd::Constant(spin ? 6 : 3, 1.0 / body.inverse_mass), velocity(mass.size());
+    velocity.head<3>() = body.velocity + gain;
     if (spin) {
         mass.tail<3>() /= inverse_inertia_factor;
-        velocity.tail<3>() = motion.rim_velocity;
+        velocity.tail<3>() = body.rim_velocity;
     }
     problem.add_body(mass.asDiagonal(), mass.cwiseProduct(velocity));
 }
 
 MatrixXd sphere_rows(
-    const Eigen::Matrix3d& basis, Index rows, const Motion& motion, bool spin, double sign, double arm_scale)
+    const Eigen::Matrix3d& basis, Index rows, const Body& body, bool spin, double sign, double arm_scale)
 {
     RowMatrix G = RowMatrix::Zero(rows, 6);
     G.topLeftCorner<contact_rows, 3>() = sign * basis.transpose();
     for (Index row = 0; row < contact_rows; ++row)
         G.block<1, 3>(row, 3) = arm_scale * basis.col(row).cross(basis.col(0)).transpose();
     for (Index row = contact_rows; row < rows; ++row)
-        G.block<1, 3>(row, 3) = sign / motion.radius * rolling_axis(basis, row).transpose();
+        G.block<1, 3>(row, 3) = sign / body.spin_radius * rolling_axis(basis, row).transpose();
     return G.leftCols(spin ? 6 : 3);
 }
 

@@ -22,14 +22,14 @@ Eigen::Matrix3d contact_basis(const Vec3& normal);
 /// A vector in the directions of the first rows, and another one in those of the rolling rows.
 Eigen::VectorXd in_rows(const Eigen::Matrix3d& basis, Eigen::Index rows, const Vec3& vector, const Vec3& rolling);
 
-/// A sphere in the terms of its Motion: v with the mass m and, where it turns, a = r ω with 2/5 m.
+/// A body of one sphere: v with the mass m and, where it turns, a = r ω with 2/5 m.
 /// @param gain h f/m [m/s]
-void add_sphere_body(multibody::Problem& problem, const Motion& motion, bool spin, const Vec3& gain);
+void add_sphere_body(multibody::Problem& problem, const Body& body, bool spin, const Vec3& gain);
 
-/// What a sphere contributes to the rows of a contact, METHOD (3): ±v + s n × a and, in the rolling rows, ±a/r.
+/// What its body contributes to the rows of a contact, METHOD (3): ±v + s n × a and, in the rolling rows, ±a/r.
 /// @param sign 1 for a, −1 for b
 Eigen::MatrixXd sphere_rows(
-    const Eigen::Matrix3d& basis, Eigen::Index rows, const Motion& motion, bool spin, double sign, double arm_scale);
+    const Eigen::Matrix3d& basis, Eigen::Index rows, const Body& body, bool spin, double sign, double arm_scale);
 
 /// Appends a contact: its law, its compliance and its target, in which the prescribed velocity of a wall stands.
 /// @param bodies what they contribute to its rows

@@ -30,7 +30,7 @@ public:
         for (std::size_t body = 0; body < order.size(); ++body) {
             body_of_sphere_[order[body]] = body;
             add_sphere_body(
-                stated_.problem, state.motion[order[body]], model.physics.spin, model.time_step * model.gravity);
+                stated_.problem, state.body(order[body]), model.physics.spin, model.time_step * model.gravity);
         }
         for (std::size_t k = 0; k < model.pistons.size(); ++k)
             add_piston_body(
@@ -41,7 +41,7 @@ public:
     {
         add_contact(contacts, k, false, [&](const Eigen::Matrix3d& basis) {
             return BodyRows{
-                body_of_sphere_[contacts.b(k)], sphere_rows(basis, rows_, state_.motion[contacts.b(k)],
+                body_of_sphere_[contacts.b(k)], sphere_rows(basis, rows_, state_.body(contacts.b(k)),
                                                     model_.physics.spin, -1.0, contacts.contact(k).arm_scale)};
         });
     }
@@ -86,12 +86,12 @@ private:
     {
         const Contact c = contacts.contact(k);
         const Eigen::Matrix3d basis = contact_basis(c.normal);
-        std::vector<BodyRows> bodies = {{body_of_sphere_[c.a],
-            sphere_rows(basis, rows_, state_.motion[c.a], model_.physics.spin, 1.0, c.arm_scale)}};
+        std::vector<BodyRows> bodies = {
+            {body_of_sphere_[c.a], sphere_rows(basis, rows_, state_.body(c.a), model_.physics.spin, 1.0, c.arm_scale)}};
         if constexpr (!std::is_null_pointer_v<std::decay_t<RowsOfOther>>) bodies.push_back(rows_of_other(basis));
         talus::add_contact(stated_.problem, contacts, k, basis, rows_, bodies);
         append_warm(impulse_in_rows(contacts, k, basis, rows_));
-        const Vec3 point = state_.position[c.a] - (state_.radius(c.a) + 0.5 * c.gap) * c.normal;
+        const Vec3 point = state_.position[c.a] - (state_.radius[c.a] + 0.5 * c.gap) * c.normal;
         stated_.contacts.push_back({c.a, c.b, with_wall, c.gap, c.kind, point});
     }
 

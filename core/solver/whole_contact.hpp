@@ -12,9 +12,9 @@ namespace talus
 /// One contact with all its rows, for what is not a sweep: that of the kernels, to the bit.
 template <bool wall, class R> using WholeContact = packs::Contacts<1, wall, R, true>;
 
-template <bool wall, class R> WholeContact<wall, R> whole_contact(const PackSpan& packs, std::size_t k, Motion* motion)
+template <bool wall, class R> WholeContact<wall, R> whole_contact(const PackSpan& packs, std::size_t k, Body* bodies)
 {
-    return {packs, k / pack_size, reinterpret_cast<double*>(motion), static_cast<int>(k % pack_size)};
+    return {packs, k / pack_size, reinterpret_cast<double*>(bodies), static_cast<int>(k % pack_size)};
 }
 
 inline Vec3 as_vector(const packs::Vector<1>& vector)

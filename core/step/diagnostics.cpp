@@ -14,7 +14,7 @@ constexpr std::size_t block = 1024; ///< spheres that are summed together: fixed
 
 std::optional<Incident::Kind> incident_of(const State& state, const Model& model, std::size_t i, double speed)
 {
-    const auto& m = state.motion[i];
+    const auto& m = state.body(i);
     if (!(state.position[i].allFinite() && m.velocity.allFinite() && m.rim_velocity.allFinite()))
         return Incident::Kind::not_a_number;
     if (speed > model.speed_limit) return Incident::Kind::blow_up;
@@ -31,16 +31,16 @@ StateSurvey survey_block(
     double all_mass = 0.0;
     Vec3 moment = Vec3::Zero(); // Σ m x
     for (std::size_t i = begin; i < end; ++i) {
-        const Motion& m = state.motion[i];
+        const Body& body = state.body(i);
         const Vec3& x = state.position[i];
-        const double mass = 1.0 / m.inverse_mass, square = m.velocity.squaredNorm(), speed = std::sqrt(square);
+        const double mass = body.mass(), speed = body.velocity.norm();
         all_mass += mass;
         moment += mass * x;
-        survey.kinetic_energy += 0.5 * mass * (square + m.rim_velocity.squaredNorm() / inverse_inertia_factor);
-        survey.momentum.linear += mass * m.velocity;
-        survey.momentum.angular += mass * (x.cross(m.velocity) + m.radius / inverse_inertia_factor * m.rim_velocity);
+        survey.kinetic_energy += body.kinetic_energy();
+        survey.momentum.linear += mass * body.velocity;
+        survey.momentum.angular += body.angular_momentum(x);
         survey.fastest_speed = std::max(survey.fastest_speed, speed);
-        if (speed * step.whole > 0.2 * m.radius) ++survey.long_moves;
+        if (speed * step.whole > 0.2 * state.radius[i]) ++survey.long_moves;
         if (const auto kind = incident_of(state, model, i, speed))
             survey.incidents.push_back({*kind, state.id[i], x, speed, state.last_wall[i]});
     }
@@ -82,7 +82,7 @@ void survey_own_forces(StateSurvey& survey, const State& state, double h)
 {
     for (std::size_t i = 0; i < state.own_force.size(); ++i) {
         const Vec3 impulse = h * state.own_force[i];
-        const Vec3 way = h * state.motion[i].velocity;
+        const Vec3 way = h * state.body(i).velocity;
         survey.load_work += state.own_force[i].dot(way);
         survey.from_gravity += Momentum{impulse, (state.position[i] - way).cross(impulse)};
     }
@@ -90,41 +90,31 @@ void survey_own_forces(StateSurvey& survey, const State& state, double h)
 
 } // namespace
 
-double kinetic_energy(const Motion& m)
-{
-    return 0.5 / m.inverse_mass * (m.velocity.squaredNorm() + m.rim_velocity.squaredNorm() / inverse_inertia_factor);
-}
-
 double kinetic_energy(const State& state)
 {
     double sum = 0.0;
-    for (const auto& m : state.motion) sum += kinetic_energy(m);
+    for (const Body& body : state.bodies) sum += body.kinetic_energy();
     return sum;
 }
 
 double potential_energy(const State& state, const Vec3& gravity)
 {
     double sum = 0.0;
-    for (std::size_t i = 0; i < state.count(); ++i)
-        sum -= gravity.dot(state.position[i]) / state.motion[i].inverse_mass;
+    for (std::size_t i = 0; i < state.count(); ++i) sum -= gravity.dot(state.position[i]) / state.body(i).inverse_mass;
     return sum;
 }
 
 Vec3 linear_momentum(const State& state)
 {
     Vec3 sum = Vec3::Zero();
-    for (const auto& m : state.motion) sum += m.velocity / m.inverse_mass;
+    for (const Body& body : state.bodies) sum += body.mass() * body.velocity;
     return sum;
 }
 
 Vec3 angular_momentum(const State& state)
 {
     Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < state.count(); ++i) {
-        const auto& m = state.motion[i];
-        sum +=
-            (state.position[i].cross(m.velocity) + m.radius / inverse_inertia_factor * m.rim_velocity) / m.inverse_mass;
-    }
+    for (std::size_t i = 0; i < state.count(); ++i) sum += state.body(i).angular_momentum(state.position[i]);
     return sum;
 }
 

@@ -13,7 +13,6 @@ namespace talus
 
 // What is read from the state, which is never written.
 
-double kinetic_energy(const Motion& motion);                      ///< of one solid sphere, translation and rotation [J]
 double kinetic_energy(const State& state);                        ///< of the spheres [J]
 double potential_energy(const State& state, const Vec3& gravity); ///< −Σ m g·x of the spheres [J]
 Vec3 linear_momentum(const State& state);                         ///< Σ m v [kg m/s]
@@ -27,7 +26,7 @@ struct Momentum {
     Momentum& operator+=(const Momentum& other);
 };
 
-/// What a pass over the spheres and pistons tells about a step.
+/// What a pass over the spheres and pistons says about a step.
 struct StateSurvey {
     double kinetic_energy = 0.0;     ///< of the new velocities, pistons included, as in the rest [J]
     double potential_energy = 0.0;   ///< −Σ m g·x of the new positions, periodic axes left out [J]

@@ -17,7 +17,7 @@ namespace
 /// Contacts of this overlap join bodies to a group, in smallest diameters: far more than they have at rest.
 constexpr double joining_overlap = 1e-3;
 
-/// An overlap with a wall that has just appeared which tells that it stands inside a sphere, in smallest diameters.
+/// An overlap with a wall that has just appeared which shows that it stands inside a sphere, in smallest diameters.
 constexpr double inside = 0.05;
 
 template <class Use> void for_each_sphere_contact(const ContactNetwork& network, Use&& use)
@@ -76,7 +76,7 @@ struct Press {
         return {.kind = Incident::Kind::pressed,
             .id = state.id[sphere],
             .position = state.position[sphere],
-            .speed = state.motion[sphere].velocity.norm(),
+            .speed = state.body(sphere).velocity.norm(),
             .last_wall = state.last_wall[sphere],
             .spheres = {spheres.begin(), spheres.end()},
             .walls = {walls.begin(), walls.end()},
@@ -151,7 +151,7 @@ std::vector<Incident> find_walls_inside(const ContactNetwork& network, const Sta
             incident.overlap = -gap;
             incident.id = state.id[sphere];
             incident.position = state.position[sphere];
-            incident.speed = state.motion[sphere].velocity.norm();
+            incident.speed = state.body(sphere).velocity.norm();
             incident.last_wall = wall;
         }
     std::vector<Incident> incidents;

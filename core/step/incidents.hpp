@@ -23,7 +23,7 @@ struct Incident {
     std::int32_t last_wall = -1; ///< index of the wall that the sphere touched last, −1: none; of a piston, its own
     std::vector<std::int64_t> spheres = {}; ///< all that are pressed together, or that the wall cuts, by id …
     std::vector<std::int32_t> walls = {};   ///< … and by index the walls that press them, or the wall
-    double overlap = 0.0;                   ///< of the contact that tells it [m]
+    double overlap = 0.0;                   ///< of the contact that shows it [m]
 
     bool of_piston() const { return id < 0; }
 
@@ -32,15 +32,15 @@ struct Incident {
 };
 
 /// An incident for each group of bodies that contacts join together which overlap by a thousandth of the smallest
-/// diameter, where a wall is that moves as told, a contact came to be jammed in this step, and none was before. Their
-/// contacts note that it is known.
+/// diameter, where a wall is that moves as prescribed, a contact came to be jammed in this step, and none was before.
+/// Their contacts note that it is known.
 std::vector<Incident> find_presses(ContactNetwork& network, const State& state, const Model& model);
 
 /// An incident for each wall that has just appeared and overlaps spheres by more than 0.05 of the smallest diameter.
 /// @pre what contacts carry is still that of the step before
 std::vector<Incident> find_walls_inside(const ContactNetwork& network, const State& state, const Model& model);
 
-/// Adds the incidents of the next sub-step to those of the ones before it: each is told once, as it was first.
+/// Adds the incidents of the next sub-step to those of the ones before it: each is reported once, as it was first.
 void add_incidents(std::vector<Incident>& all, std::vector<Incident> next);
 
 } // namespace talus

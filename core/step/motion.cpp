@@ -16,9 +16,9 @@ constexpr std::size_t few_spheres = 1000; ///< that one thread takes faster than
 void add_forces(State& state, const Vec3& gravity, double h)
 {
 #pragma omp parallel for schedule(static) if (state.count() > few_spheres)
-    for (std::size_t i = 0; i < state.count(); ++i) state.motion[i].velocity += h * gravity;
+    for (std::size_t i = 0; i < state.count(); ++i) state.body(i).velocity += h * gravity;
     for (std::size_t i = 0; i < state.own_force.size(); ++i)
-        state.motion[i].velocity += h * state.motion[i].inverse_mass * state.own_force[i];
+        state.body(i).velocity += h * state.body(i).inverse_mass * state.own_force[i];
 }
 
 void move_spheres(State& state, double h)
@@ -27,7 +27,7 @@ void move_spheres(State& state, double h)
     for (std::size_t i = 0; i < state.count(); ++i) {
         Vec3& x = state.position[i];
         Vec3& rest = state.position_rest[i];
-        const Vec3 move = h * state.motion[i].velocity + rest;
+        const Vec3 move = h * state.body(i).velocity + rest;
         const Vec3 before = x;
         x += move;
         rest = move - (x - before);
@@ -63,11 +63,11 @@ double fastest_of(const State& state, const std::vector<Flight>& flights, double
 {
     double fastest = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : fastest) if (state.count() > few_spheres)
-    for (std::size_t i = 0; i < state.count(); ++i) fastest = std::max(fastest, state.motion[i].velocity.squaredNorm());
+    for (std::size_t i = 0; i < state.count(); ++i) fastest = std::max(fastest, state.body(i).velocity.squaredNorm());
     for (const PistonState& piston : state.pistons) fastest = std::max(fastest, piston.velocity.squaredNorm());
     fastest = std::sqrt(fastest);
     for (const Flight& flight : flights)
-        fastest = std::max(fastest, (1.0 - flight.instant / h) * state.motion[flight.sphere].velocity.norm());
+        fastest = std::max(fastest, (1.0 - flight.instant / h) * state.body(flight.sphere).velocity.norm());
     return fastest;
 }
 

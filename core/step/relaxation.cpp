@@ -26,7 +26,7 @@ Model relaxing_model(const Model& model)
 /// At the start, and at rest; the number of the step keeps the storage order as it is.
 void stop(State& state)
 {
-    for (Motion& motion : state.motion) motion.velocity = motion.rim_velocity = Vec3::Zero();
+    for (Body& body : state.bodies) body.velocity = body.rim_velocity = Vec3::Zero();
     state.time = 0.0;
     state.steps = 1;
 }

@@ -37,7 +37,7 @@ double fastest_wall(const State& state, const ContactNetwork& network, const Mod
 double fastest_sphere(const State& state, const Model& model)
 {
     double square = 0.0;
-    for (const Motion& m : state.motion) square = std::max(square, m.velocity.squaredNorm());
+    for (const Body& m : state.bodies) square = std::max(square, m.velocity.squaredNorm());
     return std::sqrt(square) + model.time_step * model.gravity.norm();
 }
 

@@ -59,7 +59,7 @@ public:
         enter(Phase::warm_start);
         pistons_.emplace(network_, state_, model_, h_);
         add_forces(state_, model_.gravity, h_);
-        warm_size_ = apply_warm_start(network_, *pistons_, state_.motion, model_.physics);
+        warm_size_ = apply_warm_start(network_, *pistons_, state_.bodies, model_.physics);
         // The impulse of an impact does not grow with the step: it must not loosen the measure of the others.
         if (prepared_.impulse_scale > 1.0) warm_size_ /= prepared_.impulse_scale * prepared_.impulse_scale;
         // Nor may one of something heavy that a column has borne, which hands it on: what counts is the load before.
@@ -75,7 +75,7 @@ public:
         solver_ = solver_for(prepared_, model_.solver);
         report_.scaling = correct_pressures(network_, *pistons_, state_, model_, warm_size_);
         report_.solve = solve_contacts(
-            network_, *pistons_, state_.motion, model_.physics, solver_, warm_size_, report_.scaling.sweeps);
+            network_, *pistons_, state_.bodies, model_.physics, solver_, warm_size_, report_.scaling.sweeps);
         pistons_->store(network_, state_);
     }
 

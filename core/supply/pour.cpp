@@ -24,7 +24,7 @@ std::vector<std::size_t> spheres_near(
     std::vector<std::size_t> near;
     for (std::size_t i = 0; i < state.count(); ++i) {
         const Vec3 shift = periodicity.shift_towards(state.position[i], around.center());
-        if (around.grown(state.radius(i)).contains(state.position[i] + shift)) near.push_back(i);
+        if (around.grown(state.radius[i]).contains(state.position[i] + shift)) near.push_back(i);
     }
     return near;
 }
@@ -33,7 +33,7 @@ bool overlaps_sphere(const State& state, const std::vector<std::size_t>& near, c
     const Periodicity& periodicity)
 {
     return std::any_of(near.begin(), near.end(), [&](std::size_t i) {
-        const double least = radius + state.radius(i);
+        const double least = radius + state.radius[i];
         return periodicity.nearest_image(x - state.position[i]).squaredNorm() < least * least;
     });
 }
@@ -46,7 +46,7 @@ bool is_due_after(const Pour& source, double time, double count, double mass)
     return elapsed >= 0.0 && !(count > elapsed * source.rate) && !(mass > elapsed * source.mass_rate);
 }
 
-/// A free place for the sphere that waits, if one is found.
+/// A free place for the deferred sphere, if one is found.
 std::optional<Vec3> find_place(Pour& source, const State& state, const std::vector<std::size_t>& near,
     const std::vector<PlacedWall>& walls, const Periodicity& periodicity)
 {

@@ -28,7 +28,7 @@ struct Pour {
     std::int64_t poured = 0;  ///< so far
     double poured_mass = 0.0; ///< so far [kg]
     std::int64_t refused = 0; ///< times that no free place was found and the sphere had to wait
-    Grain pending;            ///< the sphere that waits; diameter 0: none drawn
+    Grain pending;            ///< the deferred sphere; diameter 0: none drawn
     Random random;
 
     void persist(Archive& archive)
@@ -49,7 +49,7 @@ bool is_behind(const Pour& source, double time, const Materials& materials);
 /// How many spheres will come in, by a pour by mass on average.
 double expected_count(const Pour& source, const Materials& materials);
 
-/// Lets in what is due at the state's time. A sphere that finds no free place in 50 tries waits for the next step.
+/// Lets in what is due at the state's time. A sphere that finds no free place in 50 tries is deferred to the next step.
 /// Returns how many came in.
 std::size_t pour(Pour& source, State& state, const Model& model);
 

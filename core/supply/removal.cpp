@@ -39,8 +39,8 @@ void remove_escaped(
     for (std::size_t i = 0; i < state.count(); ++i) {
         if (!ids.contains(state.id[i])) continue;
         gone[i] = 1;
-        escaped.push_back({state.time, state.id[i], state.position[i], state.motion[i].velocity,
-            state.angular_velocity(i), state.radius(i), state.material[i], state.last_wall[i]});
+        escaped.push_back({state.time, state.id[i], state.position[i], state.body(i).velocity,
+            state.angular_velocity(i), state.radius[i], state.material[i], state.last_wall[i]});
     }
     remove_spheres(state, network, gone);
 }

@@ -3,46 +3,31 @@
 
 #include "core/base/archive.hpp"
 #include "core/base/vector.hpp"
+#include "core/world/body.hpp"
 #include "core/world/piston.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
 namespace talus
 {
 
-/// What a sweep reads and writes of one sphere: one cache line of 64 B.
-///
-/// The rotation is kept as a = r ω [m/s], for then neither radius nor inertia stands in the contact kernel of solid
-/// spheres: an impulse p at the contact changes a by −5/2 p_n×t / m whatever the radius.
-struct alignas(64) Motion {
-    Vec3 velocity = Vec3::Zero();     ///< of the centre [m/s]
-    double inverse_mass = 0.0;        ///< 1/m [1/kg]
-    Vec3 rim_velocity = Vec3::Zero(); ///< a = r ω [m/s]
-    double radius = 0.0;              ///< r [m]
-
-    void persist(Archive& archive) { archive(velocity, inverse_mass, rim_velocity, radius); }
-};
-static_assert(sizeof(Motion) == 64 && std::is_standard_layout_v<Motion> && offsetof(Motion, velocity) == 0 &&
-              offsetof(Motion, inverse_mass) == 24 && offsetof(Motion, rim_velocity) == 32 &&
-              offsetof(Motion, radius) == 56); // kernels read it as eight numbers
-
-/// Inverse moment of inertia of a solid sphere times m r²: I = 2/5 m r².
-inline constexpr double inverse_inertia_factor = 2.5;
-
-/// What exists and changes: the spheres, by storage index, the pistons, and the time. Storage order changes (spheres
-/// leave, are renumbered along a curve); `id` never does.
+/// What exists and changes: spheres and the bodies that they belong to, the pistons, and the time. Storage order
+/// changes (spheres leave, are renumbered along a curve); `id` never does.
 struct State {
+    // Spheres, by storage index: what touches.
     std::vector<Vec3> position;          ///< x, centres [m]
     std::vector<Vec3> position_rest;     ///< what rounding has kept from x so far, far less than its last digit [m]
-    std::vector<Motion> motion;          ///< v, a, 1/m, r
+    std::vector<double> radius;          ///< r [m]
     std::vector<std::int32_t> material;  ///< index into Model::materials
     std::vector<std::int64_t> id;        ///< what the user sees: 0, 1, … in order of insertion
     std::vector<std::int32_t> last_wall; ///< index of the wall touched last, −1 for none
     std::vector<std::uint8_t> leaving;   ///< 1 once the centre has been inside an outlet
-    std::vector<Vec3> own_force;         ///< that acts besides gravity and contacts [N]; empty: none on any
+
+    // Bodies, by their index: what moves.
+    std::vector<Body> bodies;    ///< v, a, 1/m
+    std::vector<Vec3> own_force; ///< that acts besides gravity and contacts [N]; empty: none on any
 
     std::vector<PistonState> pistons; ///< in the order of Model::pistons
 
@@ -51,15 +36,20 @@ struct State {
     std::int64_t next_id = 0;   ///< of the next sphere inserted: so many have been inserted so far …
     double inserted_mass = 0.0; ///< … with this mass in all [kg]
 
-    std::size_t count() const { return position.size(); }
-    double radius(std::size_t i) const { return motion[i].radius; }
-    double mass(std::size_t i) const { return 1.0 / motion[i].inverse_mass; }
-    Vec3 angular_velocity(std::size_t i) const { return motion[i].rim_velocity / motion[i].radius; }
+    std::size_t count() const { return position.size(); } ///< of spheres
+
+    /// The body that a sphere belongs to, as an index. Each is a body of its own so far: the same index.
+    static std::size_t body_of(std::size_t sphere) { return sphere; }
+    Body& body(std::size_t sphere) { return bodies[body_of(sphere)]; }
+    const Body& body(std::size_t sphere) const { return bodies[body_of(sphere)]; }
+
+    double mass(std::size_t sphere) const { return body(sphere).mass(); }
+    Vec3 angular_velocity(std::size_t sphere) const { return body(sphere).spin(); }
 
     void persist(Archive& archive)
     {
-        archive(position, position_rest, motion, material, id, last_wall, leaving, own_force, pistons, time, steps,
-            next_id, inserted_mass);
+        archive(position, position_rest, radius, material, id, last_wall, leaving, bodies, own_force, pistons, time,
+            steps, next_id, inserted_mass);
     }
 };
 

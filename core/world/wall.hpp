@@ -71,8 +71,8 @@ struct Grains {
 
 using Shape = std::variant<Plane, Cylinder, Cone, Disk, Panels, Mesh, Grains>;
 
-/// A rigid wall: a shape that stands from appear_at until remove_at, and moves as told, whatever pushes against it,
-/// unless it is a piston's.
+/// A rigid wall: a shape that stands from appear_at until remove_at, and moves as prescribed, whatever pushes against
+/// it, unless it is a piston's.
 struct Wall {
     std::string name;
     Shape shape;
@@ -80,7 +80,7 @@ struct Wall {
     double appear_at = 0.0;      ///< [s]
     double remove_at = infinity; ///< [s]
     WallMotion motion = {};      ///< from where the shape says; empty: it stands still
-    std::int32_t piston = -1;    ///< index into Model::pistons and State::pistons; −1: it moves as told
+    std::int32_t piston = -1;    ///< index into Model::pistons and State::pistons; −1: it moves as prescribed
 
     bool is_piston() const { return piston >= 0; }
     bool moves() const { return is_piston() || !motion.empty(); }

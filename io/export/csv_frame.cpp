@@ -49,7 +49,7 @@ void add_columns(std::vector<Column>& columns, vtkDataArray& array, const std::s
     }
 }
 
-/// A column of names, for an array of their indices; an index without a name is told as a number.
+/// A column of names, for an array of their indices; an index without a name is shown as a number.
 Column named_column(vtkDataArray& array, const std::string& name, const std::vector<std::string>& names)
 {
     return {name, [&array, &names](vtkIdType row, fmt::memory_buffer& text) {

@@ -133,9 +133,9 @@ std::string data_file(const DeckBasis& basis)
     for (const std::size_t i : by_id(state)) {
         ++id;
         const int type = state.material[i] + 1;
-        fmt::format_to(std::back_inserter(atoms), "{} {} {:.10g} {:.10g} {}\n", id, type, 2.0 * state.radius(i),
+        fmt::format_to(std::back_inserter(atoms), "{} {} {:.10g} {:.10g} {}\n", id, type, 2.0 * state.radius[i],
             model.materials.list[static_cast<std::size_t>(state.material[i])].density, words(state.position[i]));
-        fmt::format_to(std::back_inserter(velocities), "{} {} {}\n", id, words(state.motion[i].velocity),
+        fmt::format_to(std::back_inserter(velocities), "{} {} {}\n", id, words(state.body(i).velocity),
             words(state.angular_velocity(i)));
     }
     for (std::size_t k = 0; k < basis.types.grain_walls.size(); ++k) {

@@ -62,15 +62,15 @@ std::vector<ContactLine> loaded_contacts(const Simulation& simulation, const Out
     std::vector<ContactLine> lines;
     const auto add = [&](const Contact& c, double length, std::int64_t id_b, int wall) {
         const Vec3& x = state.position[c.a];
-        const Vec3 point = x - state.radius(c.a) * c.normal;
+        const Vec3 point = x - state.radius[c.a] * c.normal;
         if (shows(output, point))
             lines.push_back(
                 {x, x - length * c.normal, c.impulse / h, c.normal_impulse() / h, c.gap, state.id[c.a], id_b, wall});
     };
     for_each_loaded_sphere_contact(simulation.network,
-        [&](const Contact& c) { add(c, state.radius(c.a) + state.radius(c.b) + c.gap, state.id[c.b], -1); });
+        [&](const Contact& c) { add(c, state.radius[c.a] + state.radius[c.b] + c.gap, state.id[c.b], -1); });
     for_each_loaded_wall_contact(
-        simulation.network, [&](const Contact& c) { add(c, state.radius(c.a) + c.gap, -1, c.b); });
+        simulation.network, [&](const Contact& c) { add(c, state.radius[c.a] + c.gap, -1, c.b); });
     return lines;
 }
 
@@ -94,9 +94,9 @@ void add_particle_arrays(vtkPointData& data, const std::vector<std::string>& arr
     const std::size_t count = shown.size();
     const auto asked = [&](const char* name) { return is_asked_for(arrays, name); };
     add_integers(data, "id", count, [&](std::size_t k) { return state.id[shown[k]]; });
-    add_floats(data, "radius", count, [&](std::size_t k) { return state.radius(shown[k]); });
+    add_floats(data, "radius", count, [&](std::size_t k) { return state.radius[shown[k]]; });
     if (asked("velocity"))
-        add_vectors(data, "velocity", count, [&](std::size_t k) { return state.motion[shown[k]].velocity; });
+        add_vectors(data, "velocity", count, [&](std::size_t k) { return state.body(shown[k]).velocity; });
     if (asked("angular_velocity"))
         add_vectors(data, "angular_velocity", count, [&](std::size_t k) { return state.angular_velocity(shown[k]); });
     if (asked("material"))

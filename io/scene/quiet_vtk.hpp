@@ -13,7 +13,7 @@ namespace talus
 
 class VtkErrors;
 
-/// Has VTK's errors kept, and neither printed nor logged, as long as it lives: what users are told is our sentence.
+/// Has VTK's errors kept, and neither printed nor logged, as long as it lives: what users read is our sentence.
 class QuietVtk
 {
 public:

@@ -15,7 +15,7 @@ MOST_NAMES = 6  # in one sentence
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of error, and what it is told in."""
+    """A kind of error, and what it is reported in."""
     name: str
     unit: str  # "1" where it is relative
     meaning: str
@@ -91,7 +91,7 @@ def found(row, name):
 
 
 def error_in(row, reference, kind):
-    """The signed error of a kind in one row; not a number where it cannot be told."""
+    """The signed error of a kind in one row; not a number where it cannot be reported."""
     if kind is PROFILE:
         return Error(max((abs(one - other) for one, other in zip(row["profile"], reference["profile"])), default=0.0))
     m, r = found(row, kind.name), found(reference, kind.name)

@@ -104,7 +104,7 @@ std::unique_ptr<Sensor> build_wall_position(const Entry& entry, const std::vecto
 {
     const Wall& wall = walls[index_of(walls, "wall", entry.table.wall, entry.key("wall"))];
     if (!wall.is_piston())
-        throw SceneError(entry.key("wall"), "the wall '" + wall.name + "' has no finite mass: it is where it is told");
+        throw SceneError(entry.key("wall"), "the wall '" + wall.name + "' has no finite mass: it moves as prescribed");
     return std::make_unique<WallPosition>(entry.table.name, static_cast<std::size_t>(wall.piston), build_window(entry));
 }
 

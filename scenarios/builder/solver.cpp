@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/builder/solver.hpp"
 
+#include "core/deep_beds/choice.hpp"
 #include "scenarios/scene_error.hpp"
 
 #include <algorithm>
@@ -13,13 +14,7 @@ namespace talus
 namespace
 {
 
-constexpr double deep = 40.0;       ///< mean diameters; in shallower beds at rest sweeps alone do nearly as well
-constexpr double very_deep = 100.0; ///< mean diameters; there three sweeps do not clean up after it (hard case 33)
-constexpr int sweeps_in_very_deep = 6;
-constexpr double column = 150.0;     ///< mean diameters; with `matched` so tall a one sways for many seconds
-constexpr double heavy = 10.0;       ///< times the lightest sphere
 constexpr double very_heavy = 500.0; ///< a sphere, times the lightest: on eight of its diameters or more it may hop
-constexpr double crushing = 5e4;     ///< 37 diameters; one of 50 pressed a grain through the floor with `matched`
 constexpr double fine = 1e-3;
 constexpr double packed_share = 0.6; ///< of the room that a bed takes
 
@@ -42,8 +37,8 @@ Contents contents_of(const Simulation& simulation)
     };
     const auto volume = [](double diameter) { return std::numbers::pi / 6.0 * std::pow(diameter, 3); };
     for (std::size_t i = 0; i < state.count(); ++i) {
-        all.volume += volume(2.0 * state.radius(i));
-        all.room.extend(Box{state.position[i], state.position[i]}.grown(state.radius(i)));
+        all.volume += volume(2.0 * state.radius[i]);
+        all.room.extend(Box{state.position[i], state.position[i]}.grown(state.radius[i]));
         add_mass(state.mass(i));
     }
     for (const Pour& source : simulation.pours) {
@@ -71,20 +66,24 @@ double depth_of(const Contents& all, const Model& model)
     return all.volume / packed_share / across / model.mean_diameter;
 }
 
-/// Along a periodic axis a bed presses against its own images, which balances whatever its size: there is nothing that
-/// keeps such a pressure from growing with the noise.
-bool pressure_is_scaled(const scene::SwitchOrName& asked, const Contents& all, double depth, const Model& model)
+BedMeasures measures_of(const Simulation& simulation)
 {
-    const bool may_be = !model.periodicity.any();
-    if (asked.name == "auto") return may_be && (depth >= deep || all.heaviest_body >= heavy * all.lightest);
-    if (asked.on && !may_be)
+    const Contents all = contents_of(simulation);
+    const double ratio = simulation.model.gravity.isZero() ? 1.0 : all.heaviest / all.lightest;
+    return {depth_of(all, simulation.model), ratio, all.heaviest_body / all.lightest};
+}
+
+bool pressure_is_scaled(const scene::SwitchOrName& asked, const BedMeasures& bed, const Model& model)
+{
+    if (asked.name == "auto") return needs_scaled_pressures(bed, model);
+    if (asked.on && !may_scale_pressures(model))
         throw SceneError("solver.pressure_scaling",
             "pressure scaling is not for periodic axes, where beads may be shot out of a bed by the pressure on its "
             "own images; leave it out, or write false");
     return asked.on;
 }
 
-/// Whether contacts may be rigid, and it pays: nothing moves as it is told, or flows.
+/// Whether contacts may be rigid, and it pays: nothing moves as prescribed, or flows.
 bool may_be_rigid(const Simulation& simulation)
 {
     const Model& model = simulation.model;
@@ -111,10 +110,11 @@ template <class... Numbers> std::string text(const char* format, Numbers... numb
     return buffer;
 }
 
-std::string explain(const SolverSettings& solver, double step_factor, double depth, double ratio)
+std::string explain(const SolverSettings& solver, double step_factor, const BedMeasures& bed)
 {
-    const std::string found = ratio >= very_heavy ? text("the heaviest sphere is %.3g times the lightest", ratio)
-                                                  : text("the spheres stand %.3g diameters high", depth);
+    const std::string found = bed.mass_ratio >= very_heavy
+                                  ? text("the heaviest sphere is %.3g times the lightest", bed.mass_ratio)
+                                  : text("the spheres stand %.3g diameters high", bed.depth);
     const std::string step = step_factor < 1.0 ? text(", %.2g of the step", step_factor) : "";
     return text("stabilisation %s%s and tolerance %g, for %s",
         solver.stabilisation == Stabilisation::projected ? "projected" : "matched", step.c_str(), solver.tolerance,
@@ -168,30 +168,27 @@ SolverChoice complete_solver(SolverSettings solver, const scene::Scene& scene, c
 {
     const Model& model = simulation.model;
     const scene::SolverTable& table = scene.solver;
-    const Contents all = contents_of(simulation);
-    const double depth = depth_of(all, model);
-    const bool scaled = pressure_is_scaled(table.pressure_scaling, all, depth, model);
-    const double ratio = model.gravity.isZero() ? 1.0 : all.heaviest / all.lightest;
+    const BedMeasures bed = measures_of(simulation);
+    const bool scaled = pressure_is_scaled(table.pressure_scaling, bed, model);
     std::string explanation;
     double step_factor = 1.0;
     if (scene.accuracy.empty()) { // else measured settings decide
-        if (table.stabilisation == "auto" && scaled && (depth >= column || ratio >= crushing) &&
-            may_be_rigid(simulation)) {
+        if (table.stabilisation == "auto" && scaled && needs_rigid_contacts(bed) && may_be_rigid(simulation)) {
             solver.stabilisation = Stabilisation::projected;
             if (table.min_sweeps == 0)
                 solver.min_sweeps = std::min(usual_sweeps(solver.stabilisation), solver.max_sweeps);
         }
-        if (scene.time.step.name == "auto") step_factor = step_under(ratio);
+        if (scene.time.step.name == "auto") step_factor = step_under(bed.mass_ratio);
         const bool gas = model.gravity.isZero() && model.physics.restitution;
-        if (table.tolerance.name == "auto" && (ratio >= very_heavy || gas)) solver.tolerance = fine;
-        if (depth >= column || ratio >= very_heavy) explanation = explain(solver, step_factor, depth, ratio);
+        if (table.tolerance.name == "auto" && (bed.mass_ratio >= very_heavy || gas)) solver.tolerance = fine;
+        if (needs_rigid_contacts(bed) || bed.mass_ratio >= very_heavy) explanation = explain(solver, step_factor, bed);
         if (gas)
             explanation =
                 text("tolerance %g, for impacts without gravity, whose energy nothing stills", solver.tolerance);
     }
     solver.pressure_scaling = scaled && solver.stabilisation == Stabilisation::projected;
-    if (solver.pressure_scaling && depth >= very_deep && table.min_sweeps == 0)
-        solver.min_sweeps = std::clamp(sweeps_in_very_deep, solver.min_sweeps, solver.max_sweeps);
+    if (solver.pressure_scaling && table.min_sweeps == 0)
+        solver.min_sweeps = std::clamp(sweeps_after_scaling(bed), solver.min_sweeps, solver.max_sweeps);
     return {solver, step_factor, explanation};
 }
 

@@ -35,7 +35,7 @@ SolverSettings build_solver(const scene::SolverTable& table, const RunSetting& s
 /// These settings with what the scene leaves to the spheres.
 ///
 /// Where spheres stand 150 mean diameters high, or one has 50 000 times the mass of another, contacts are rigid if
-/// nothing flows or moves as it is told. Where one has 500 times the mass of another, or there is restitution and no
+/// nothing flows or moves as prescribed. Where one has 500 times the mass of another, or there is restitution and no
 /// gravity, the tolerance is 1e-3; from 800 times on the step is smaller. Not so where the scene says what it wants, or
 /// asks for an accuracy.
 ///

@@ -42,7 +42,7 @@ double fall_height(const Simulation& simulation)
     Box spheres;
     for (std::size_t i = 0; i < simulation.state.count(); ++i)
         spheres.extend(
-            Box{simulation.state.position[i], simulation.state.position[i]}.grown(simulation.state.radius(i)));
+            Box{simulation.state.position[i], simulation.state.position[i]}.grown(simulation.state.radius[i]));
     if (!spheres.empty()) highest = std::max(highest, span(spheres));
     bool floor = !model.outlets.empty(), slope = false;
     for (const auto& wall : model.walls) {
@@ -135,7 +135,7 @@ double fastest_piston(const Simulation& simulation)
 double fastest_speed(const Simulation& simulation)
 {
     double start = 0.0;
-    for (const auto& m : simulation.state.motion) start = std::max({start, m.velocity.norm(), m.rim_velocity.norm()});
+    for (const auto& m : simulation.state.bodies) start = std::max({start, m.velocity.norm(), m.rim_velocity.norm()});
     for (const auto& pour : simulation.pours) start = std::max(start, pour.velocity.norm());
     const double fall_gravity = std::abs(simulation.model.gravity.dot(simulation.model.up()));
     return std::sqrt(start * start + 2.0 * fall_gravity * fall_height(simulation)) + fastest_wall(simulation);

@@ -109,7 +109,8 @@ void require_piston(const scene::WallTable& w, std::size_t index)
 {
     const auto key = [&](const char* name) { return key_path("wall", index, name); };
     if (!w.motion.empty())
-        throw SceneError(key("mass"), "a wall moves as told or as forces have it: leave out 'mass' or the motion");
+        throw SceneError(
+            key("mass"), "a wall moves as prescribed or as forces have it: leave out 'mass' or the motion");
     if (w.appear_at > 0.0 || w.remove_at < infinity)
         throw SceneError(
             key("mass"), "a wall of finite mass is there for the whole run: leave out 'appear_at' and 'remove_at'");

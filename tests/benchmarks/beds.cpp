@@ -184,8 +184,8 @@ Laid simulate(const Bed& bed)
     const State& state = simulation.state;
     for (std::size_t i = 0; i < state.count(); ++i) {
         laid.spheres.positions.push_back(state.position[i]);
-        laid.spheres.radii.push_back(state.radius(i));
-        laid.spheres.velocities.push_back(state.motion[i].velocity);
+        laid.spheres.radii.push_back(state.radius[i]);
+        laid.spheres.velocities.push_back(state.body(i).velocity);
         laid.spheres.angular_velocities.push_back(state.angular_velocity(i));
     }
     return laid;

@@ -23,8 +23,8 @@ constexpr int sweeps_in_a_row = 10;
 /// The problem of a step, after its warm start.
 struct Problem {
     Simulation simulation;
-    ContactNetwork network;     ///< as it is before the sweeps
-    std::vector<Motion> motion; ///< likewise
+    ContactNetwork network;   ///< as it is before the sweeps
+    std::vector<Body> bodies; ///< likewise
     std::size_t contacts = 0;
     double warm_size = 0.0;
 };
@@ -37,10 +37,10 @@ Problem make_problem(const std::string& bed, const Change& change)
         std::tie(problem.simulation.model, problem.simulation.state, problem.simulation.network);
     problem.contacts = prepare_step(problem.simulation).contacts.count;
     PistonGroup pistons(network, state, model, model.time_step);
-    for (Motion& motion : state.motion) motion.velocity += model.time_step * model.gravity;
-    problem.warm_size = apply_warm_start(network, pistons, state.motion, model.physics);
+    for (Body& body : state.bodies) body.velocity += model.time_step * model.gravity;
+    problem.warm_size = apply_warm_start(network, pistons, state.bodies, model.physics);
     problem.network = network;
-    problem.motion = state.motion;
+    problem.bodies = state.bodies;
     return problem;
 }
 
@@ -71,10 +71,10 @@ void sweeps(benchmark::State& run, const std::string& bed, const Change& change)
     for (auto _ : run) {
         for (int threads = 1; threads <= most_threads; ++threads) {
             network = problem.network;
-            state.motion = problem.motion;
+            state.bodies = problem.bodies;
             omp_set_num_threads(threads);
             const double cpu = cpu_seconds(), wall = wall_seconds();
-            sweep_contacts(sweeps_in_a_row, network, pistons, state.motion, model.physics, problem.warm_size);
+            sweep_contacts(sweeps_in_a_row, network, pistons, state.bodies, model.physics, problem.warm_size);
             const double seconds = threads == 1 ? cpu_seconds() - cpu : wall_seconds() - wall;
             rates[static_cast<std::size_t>(threads - 1)].push_back(1e-6 * updates / seconds);
             if (threads == 1) run.SetIterationTime(seconds);

@@ -41,7 +41,7 @@ double energy_of_motion(const World& world)
 {
     double sum = 0.0;
     for (std::size_t i = 0; i < world.state.count(); ++i)
-        sum += 0.5 * world.state.mass(i) * world.state.motion[i].velocity.squaredNorm();
+        sum += 0.5 * world.state.mass(i) * world.state.body(i).velocity.squaredNorm();
     return sum;
 }
 

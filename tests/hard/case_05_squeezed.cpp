@@ -63,7 +63,7 @@ int steps(const World& world, double time)
 
 TEST_CASE("5 a sphere squeezed between two walls", "[hard][quick]")
 {
-    // Walls move as told, whatever pushes back: the sphere's overlap is dictated, and 10 % d in each of them is
+    // Walls move as prescribed, whatever pushes back: the sphere's overlap is dictated, and 10 % d in each of them is
     // thousands of times what weights do. The force must be that of the contact's stiffness, which for `matched` is the
     // one that the sweeps can carry (k = 4 Upsilon/(sigma W h^2)), rise and fall along one line, and be the same on
     // both sides; the energy that the walls put in must come back, and the sphere stay where it is.

@@ -100,8 +100,8 @@ TEST_CASE("5 a rigid press closes on a sphere", "[hard][quick]")
         World world = pressed_chain(spheres, way * spheres, speed * spheres);
         const Told told = run(world, 2.2 * way / speed);
         const std::string which = spheres == 1 ? ", one sphere" : ", a chain of ten";
-        hard.holds("told once" + which, told.presses == 1 && told.others == 0);
-        hard.below("overlap when it is told" + which + " [d]", told.press.overlap / d, 0.03);
+        hard.holds("reported once" + which, told.presses == 1 && told.others == 0);
+        hard.below("overlap when it is reported" + which + " [d]", told.press.overlap / d, 0.03);
         hard.holds("names both walls" + which, told.press.walls == std::vector<std::int32_t>{0, 1});
         hard.holds("names all spheres" + which, told.press.spheres.size() == static_cast<std::size_t>(spheres));
         // What bears a heavy lid at 2 % of overlap bears a press at 5 %.
@@ -119,7 +119,7 @@ TEST_CASE("5 a rigid press closes on a bed", "[hard]")
     constexpr double speed = 0.05, way = 7 * d; // the bed is 9 diameters high
     World world = pressed_box(way, speed);
     const Told told = run(world, 2.2 * way / speed);
-    hard.holds("it is told", told.presses > 0 && told.others == 0);
+    hard.holds("it is reported", told.presses > 0 && told.others == 0);
     hard.tell("groups told", told.presses);
     hard.holds("names the lid", std::ranges::find(told.press.walls, 1) != told.press.walls.end());
     hard.below("largest force [weights of the bed]", told.force / (300 * world.mass() * standard_gravity), 100.0);
@@ -136,9 +136,9 @@ TEST_CASE("5 two walls overlap with a sphere between them", "[hard][quick]")
     world.add_wall(Plane{Vec3(0, 0, d), -Vec3::UnitZ()}, to_and_fro(0.0, Vec3(0, 0, -way), speed));
     world.add_sphere(Vec3(0, 0, 0.5 * d));
     const Told told = run(world, 2.2 * way / speed);
-    hard.holds("told once, with both walls and the sphere",
+    hard.holds("reported once, with both walls and the sphere",
         told.presses == 1 && told.others == 0 && told.press.walls.size() == 2 && told.press.spheres.size() == 1);
-    hard.below("overlap when it is told [d]", told.press.overlap / d, 0.1);
+    hard.below("overlap when it is reported [d]", told.press.overlap / d, 0.1);
     hard.below("fastest [speed of the walls]", told.fastest / speed, 2.0);
     hard.below("off the line between them at the end [d]", world.position().head<2>().norm() / d, 1e-6);
 }

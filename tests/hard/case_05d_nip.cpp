@@ -52,7 +52,7 @@ TEST_CASE("5 a nip", "[hard]")
             const Nip nip = run(simulation, 4.0);
             const std::string name = law + ", seed " + std::to_string(seed) + ": ";
             hard.below(name + "fastest grain [fall and roller]", nip.fastest / (fall + roller), 1.0);
-            hard.holds(name + "presses are told, and nothing else", nip.presses > 0 && nip.others == 0);
+            hard.holds(name + "presses are reported, and nothing else", nip.presses > 0 && nip.others == 0);
             hard.tell(name + "presses", nip.presses);
             hard.below(name + "most energy in the contacts [fall of all grains]", nip.stored / (1.6 * 9.81 * 0.3), 0.1);
             hard.tell(name + "grains drawn through", static_cast<double>(simulation.outflow.count));

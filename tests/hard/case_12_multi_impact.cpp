@@ -82,7 +82,7 @@ Outcome hit(const Target& target, double restitution, double friction, double to
         outcome.gain = std::max(outcome.gain, kinetic_energy(world.state) / start - 1.0);
     }
     double parted = 0.0;
-    for (const auto& m : world.state.motion) parted = std::max(parted, (m.velocity - target.way).norm());
+    for (const auto& m : world.state.bodies) parted = std::max(parted, (m.velocity - target.way).norm());
     REQUIRE(parted > 0.1); // it did hit
     outcome.momentum = (world.momentum() - mass * target.way).norm() / mass;
     for (std::size_t i = 0; i < target.places.size(); ++i)

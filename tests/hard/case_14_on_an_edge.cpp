@@ -56,7 +56,7 @@ Rest rest(const Mesh& floor, const Vec3& place, const Eigen::Matrix3d& turn)
     }
     const Vec3 way = turn.transpose() * (world.position() - begin);
     rest.drift = way.head<2>().norm() / d / (steps * h);
-    rest.spin = world.state.motion[0].rim_velocity.norm() / d;
+    rest.spin = world.state.body(0).rim_velocity.norm() / d;
     return rest;
 }
 

@@ -59,8 +59,8 @@ Ride ride(const std::vector<Shape>& floors, const Eigen::Matrix3d& turn, Start s
     world.step(1000);
     const auto here = [&] { return Vec3(turn.transpose() * world.position()); };
     const Vec3 begin = here();
-    world.state.motion[0].velocity += turn * Vec3(speed, 0, 0);
-    if (start == Start::rolling) world.state.motion[0].rim_velocity = turn * Vec3(0, speed, 0);
+    world.state.body(0).velocity += turn * Vec3(speed, 0, 0);
+    if (start == Start::rolling) world.state.body(0).rim_velocity = turn * Vec3(0, speed, 0);
     Ride ride;
     while (here().x() < 0.45 * length) {
         const double time = world.state.time;
@@ -72,7 +72,7 @@ Ride ride(const std::vector<Shape>& floors, const Eigen::Matrix3d& turn, Start s
     const double end = start == Start::sliding ? 5.0 / 7.0 * speed : speed;
     const Vec3 rim = start == Start::frictionless ? Vec3::Zero() : Vec3(0, end, 0);
     ride.speed_error = (turn.transpose() * world.velocity() - Vec3(end, 0, 0)).norm() / end;
-    ride.spin_error = (turn.transpose() * world.state.motion[0].rim_velocity - rim).norm() / end;
+    ride.spin_error = (turn.transpose() * world.state.body(0).rim_velocity - rim).norm() / end;
     return ride;
 }
 

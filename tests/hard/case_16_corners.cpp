@@ -109,7 +109,7 @@ TEST_CASE("16 a sphere rolls off a convex edge", "[hard][quick]")
         hard.below(
             "slowly, " + name + ": horizontal speed, error", std::abs(world.velocity().x() / expected - 1.0), 0.03);
         hard.below("slowly, " + name + ": spin, error",
-            std::abs(world.state.motion[0].rim_velocity.y() / std::sqrt(standard_gravity * r * level) - 1.0), 0.03);
+            std::abs(world.state.body(0).rim_velocity.y() / std::sqrt(standard_gravity * r * level) - 1.0), 0.03);
         hard.below("slowly, " + name + ": sideways [m/s]", std::abs(world.velocity().y()), 1e-9);
         hard.below("slowly, " + name + ": rise of the energy in a step [m g r]", rise, 1e-6);
 
@@ -117,7 +117,7 @@ TEST_CASE("16 a sphere rolls off a convex edge", "[hard][quick]")
         fast.add_wall(shape);
         fast.add_sphere(Vec3(-0.3, 0, r));
         fast.step(1000);
-        fast.state.motion[0].velocity.x() = fast.state.motion[0].rim_velocity.y() = 1.0;
+        fast.state.body(0).velocity.x() = fast.state.body(0).rim_velocity.y() = 1.0;
         double upwards = -infinity;
         while (fast.position().x() < 2 * r) {
             fast.step();
@@ -127,7 +127,7 @@ TEST_CASE("16 a sphere rolls off a convex edge", "[hard][quick]")
         hard.below("fast, " + name + ": change of horizontal speed [g h]",
             std::abs(fast.velocity().x() - 1.0) / in_a_step, 0.1);
         hard.below("fast, " + name + ": change of r x spin [g h]",
-            std::abs(fast.state.motion[0].rim_velocity.y() - 1.0) / in_a_step, 0.1);
+            std::abs(fast.state.body(0).rim_velocity.y() - 1.0) / in_a_step, 0.1);
         hard.below("fast, " + name + ": speed upwards at the edge [g h]", upwards / in_a_step, 0.1);
     }
 }

@@ -58,7 +58,7 @@ TakeOff take_off(World world)
         left = static_cast<int>(second);
     }
     result.velocity = world.velocity();
-    result.rim_velocity = world.state.motion[0].rim_velocity;
+    result.rim_velocity = world.state.body(0).rim_velocity;
     return result;
 }
 

@@ -95,7 +95,7 @@ TEST_CASE("18 very soft and very hard contacts", "[hard]")
             const World after = impact_on_plane(before, 0.3, 0.5, standard_radius, solver);
             impact_error = std::max({impact_error, std::abs(-after.velocity().z() - expected.normal),
                 std::abs(after.velocity().x() - expected.tangential),
-                std::abs(after.state.motion[0].rim_velocity.y() - expected.rim)});
+                std::abs(after.state.body(0).rim_velocity.y() - expected.rim)});
         }
     hard.below("hard, projected: oblique impacts, worst error [m/s]", impact_error, 1e-6);
 }

@@ -79,8 +79,8 @@ TEST_CASE("19 rest of a pile of 1000", "[hard]")
 {
     // A pile that has come to rest must stay where it is. A bead without rolling resistance that touches the plate, or
     // two others, only is not held by anything: it rolls on for ever with whatever speed it has, as it should. So the
-    // horizontal drift is asked of those that rest on three contacts or more, and that of the others is told; a pile
-    // that sinks, all beads included, would show in the height of its centre.
+    // horizontal drift is asked of those that rest on three contacts or more, and that of the others is reported; a
+    // pile that sinks, all beads included, would show in the height of its centre.
     HardCase hard("19 rest of a pile of 1000");
     for (const std::string law : {"matched", "projected"}) {
         auto s = open_scene("pile_plain",

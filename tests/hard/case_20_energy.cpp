@@ -32,7 +32,7 @@ EnergyRecord watch_energy(Simulation simulation, bool of_flight)
     const double h = simulation.model.time_step;
     double floor = 0.0;
     for (std::size_t i = 0; i < simulation.state.count(); ++i)
-        floor += simulation.state.mass(i) * -gravity.z() * simulation.state.radius(i);
+        floor += simulation.state.mass(i) * -gravity.z() * simulation.state.radius[i];
     const auto without_contacts = [&] {
         const double flight = of_flight ? 0.5 * h * gravity.dot(linear_momentum(simulation.state)) : 0.0;
         return kinetic_energy(simulation.state) + potential_energy(simulation.state, gravity) - floor + flight;

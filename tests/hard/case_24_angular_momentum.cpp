@@ -39,9 +39,9 @@ double angular_scale(const State& state)
 {
     double scale = 0.0;
     for (std::size_t i = 0; i < state.count(); ++i) {
-        const Motion& m = state.motion[i];
-        scale +=
-            (state.position[i].norm() * m.velocity.norm() + 0.4 * m.radius * m.rim_velocity.norm()) / m.inverse_mass;
+        const Body& m = state.body(i);
+        scale += (state.position[i].norm() * m.velocity.norm() + 0.4 * state.radius[i] * m.rim_velocity.norm()) /
+                 m.inverse_mass;
     }
     return scale;
 }
@@ -61,7 +61,7 @@ TEST_CASE("24 angular momentum with large overlap", "[hard][quick]")
     const double scale = angular_scale(world.state);
     const Vec3 angular = angular_momentum(world.state), linear = linear_momentum(world.state);
     double own = 0.0, worst = 0.0, worst_linear = 0.0, deepest = 0.0;
-    for (const auto& m : world.state.motion) own += m.velocity.norm() / m.inverse_mass;
+    for (const auto& m : world.state.bodies) own += m.velocity.norm() / m.inverse_mass;
     for (int k = 0; k < 1000; ++k) {
         world.step();
         worst = std::max(worst, (angular_momentum(world.state) - angular).norm() / scale);

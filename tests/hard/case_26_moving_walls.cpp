@@ -62,10 +62,10 @@ double contact_dissipation(const World& world, const State& before)
     for (const auto& force : world.contact_forces()) {
         const auto i = world.index_of(force.a);
         const auto mean = [&](std::size_t k, const Vec3& arm) -> Vec3 {
-            const Motion& now = world.state.motion[k];
-            const Vec3 velocity = 0.5 * (before.motion[k].velocity + now.velocity);
-            const Vec3 rim = 0.5 * (before.motion[k].rim_velocity + now.rim_velocity);
-            return velocity + rim.cross(arm) / now.radius;
+            const Body& now = world.state.body(k);
+            const Vec3 velocity = 0.5 * (before.body(k).velocity + now.velocity);
+            const Vec3 rim = 0.5 * (before.body(k).rim_velocity + now.rim_velocity);
+            return velocity + rim.cross(arm) / now.spin_radius;
         };
         const double radius = world.radius(force.a);
         Vec3 u;
@@ -93,7 +93,7 @@ Balance run(World world, double settle, double duration)
         double gravity_work = 0.0;
         for (std::size_t i = 0; i < before.count(); ++i)
             gravity_work += world.state.mass(i) * h *
-                            world.model.gravity.dot(0.5 * (before.motion[i].velocity + world.state.motion[i].velocity));
+                            world.model.gravity.dot(0.5 * (before.body(i).velocity + world.state.body(i).velocity));
         const double dissipated = contact_dissipation(world, before);
         const double work = world.report.outcome.wall_work;
         balance.wall_work += work;

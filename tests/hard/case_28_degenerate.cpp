@@ -16,7 +16,7 @@ bool finite(const World& world)
 {
     bool all = std::isfinite(world.report.bodies.kinetic_energy) && std::isfinite(world.report.solve.residual);
     for (std::size_t i = 0; i < world.state.count(); ++i)
-        all = all && world.state.position[i].allFinite() && world.state.motion[i].velocity.allFinite();
+        all = all && world.state.position[i].allFinite() && world.state.body(i).velocity.allFinite();
     return all;
 }
 

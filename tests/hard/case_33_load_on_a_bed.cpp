@@ -75,7 +75,7 @@ void run(int layers, int beds)
 double vertical_momentum(const Model& model, const State& state)
 {
     double sum = model.pistons[0].mass * state.pistons[0].velocity.z();
-    for (std::size_t i = 0; i < state.count(); ++i) sum += state.mass(i) * state.motion[i].velocity.z();
+    for (std::size_t i = 0; i < state.count(); ++i) sum += state.mass(i) * state.body(i).velocity.z();
     return sum;
 }
 

@@ -51,7 +51,7 @@ Load carry(const std::string& law, double bottom)
         for (std::size_t i = 0; i < state.count(); ++i) {
             const Vec3& x = state.position[i];
             through += !(x.z() > 0.0) && base.contains(Vec3(x.x(), x.y(), 0.0));
-            if (state.radius(i) > d) found.bottom = std::min(found.bottom, (x.z() - state.radius(i)) / d);
+            if (state.radius[i] > d) found.bottom = std::min(found.bottom, (x.z() - state.radius[i]) / d);
         }
         found.through = std::max(found.through, through);
         if (state.time < 0.8 * simulation.duration) return;

@@ -61,10 +61,10 @@ StepReport LoadedBed::step()
 {
     const double h = model.time_step;
     for (std::size_t i = 0; i < state_.count(); ++i)
-        momentum_[static_cast<std::size_t>(state_.id[i])] = state_.mass(i) * state_.motion[i].velocity.z();
+        momentum_[static_cast<std::size_t>(state_.id[i])] = state_.mass(i) * state_.body(i).velocity.z();
     for (int t = 0; t < grains_per_layer; ++t) {
         const auto i = std::ranges::find(state_.id, from_top_[static_cast<std::size_t>(t)]) - state_.id.begin();
-        Motion& m = state_.motion[static_cast<std::size_t>(i)];
+        Body& m = state_.body(static_cast<std::size_t>(i));
         m.velocity.z() -= h * 0.25 * weight_ / grains_per_layer * m.inverse_mass;
     }
     return advance(state_, network_, model);
@@ -75,7 +75,7 @@ double LoadedBed::profile_error() const
     std::vector<double> gained(state_.count());
     for (std::size_t i = 0; i < state_.count(); ++i) {
         const auto id = static_cast<std::size_t>(state_.id[i]);
-        gained[id] = momentum_[id] - state_.mass(i) * state_.motion[i].velocity.z();
+        gained[id] = momentum_[id] - state_.mass(i) * state_.body(i).velocity.z();
     }
     double above = 0.0, worst = 0.0;
     for (const auto id : from_top_) {

@@ -44,7 +44,7 @@ TEST_CASE("a sphere thrown at a wall comes back with e times its speed", "[resti
         restitution(e), GENERATE(rigid_settings(), matched_settings()), 1e-5, Vec3::Zero(), Vec3::Zero(), 0.0025);
     world.model.gravity = Vec3::Zero();
     world.state.position[0].z() += 1e-3;
-    world.state.motion[0].velocity = Vec3(0, 0, -speed);
+    world.state.body(0).velocity = Vec3(0, 0, -speed);
     advance_until(world, moves_up, 100);
     CHECK(world.velocity().z() == within(1e-14, e * speed));
     world.step(100);
@@ -56,7 +56,7 @@ TEST_CASE("a rigid impact without restitution is perfectly plastic", "[restituti
     // An open gap is first closed (u_n = −g/h), then u_n ≥ 0 holds: the sphere stops on the surface and stays there.
     World world = dropped_sphere(1e-3, 0.0, rigid_settings(), 1e-4);
     world.model.gravity = Vec3::Zero();
-    world.state.motion[0].velocity = Vec3(0, 0, -1);
+    world.state.body(0).velocity = Vec3(0, 0, -1);
     world.step(100);
     CHECK(world.velocity().norm() < 1e-15);
     CHECK(world.position().z() == within(1e-14, standard_radius));
@@ -149,7 +149,7 @@ TEST_CASE("what is struck back within an impact rebounds once more", "[restituti
     world.add_plane(Vec3::Zero(), Vec3::UnitZ());
     world.add_sphere(Vec3(0, 0, 0.9 * standard_radius), Vec3(0, 0, -1));
     for (int blow = 0; blow < 3; ++blow) {
-        world.state.motion[0].velocity = Vec3(0, 0, -1);
+        world.state.body(0).velocity = Vec3(0, 0, -1);
         world.state.position[0].z() = 0.9 * standard_radius;
         world.step();
         CHECK(world.velocity(0).z() == Approx(1.0).epsilon(1e-9));

@@ -65,7 +65,7 @@ double momentum_scale(const State& state)
 {
     double scale = 0.0;
     for (std::size_t i = 0; i < state.count(); ++i)
-        scale += state.mass(i) * (state.motion[i].velocity.norm() + state.motion[i].rim_velocity.norm());
+        scale += state.mass(i) * (state.body(i).velocity.norm() + state.body(i).rim_velocity.norm());
     return scale;
 }
 
@@ -142,7 +142,7 @@ TEST_CASE("a collision is the same for a moving observer", "[invariance]")
     for (int k = 0; k < 50; ++k) {
         World at_rest = random_collision(random, e, rigid_settings()).world;
         World moving = at_rest;
-        for (Motion& motion : moving.state.motion) motion.velocity += boost;
+        for (Body& motion : moving.state.bodies) motion.velocity += boost;
         at_rest.step();
         moving.step();
         for (const int id : {0, 1}) { // 1e-10: asked; the boost costs a digit of round-off

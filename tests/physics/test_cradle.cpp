@@ -42,7 +42,7 @@ TEST_CASE("an impact that meets a gap about to close is handed on in full", "[re
     world.model.time_step = 1e-3;
     world.state.position[1].x() += 5e-4;
     world.state.position[2].x() += 8e-4;
-    world.state.motion[1].velocity.x() = 0.25;
+    world.state.body(1).velocity.x() = 0.25;
     world.step(2);
     CHECK(world.velocity(0).x() == within(1e-14, 0.25));
     CHECK(std::abs(world.velocity(1).x()) < 1e-14);

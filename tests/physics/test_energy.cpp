@@ -84,7 +84,7 @@ TEST_CASE(
     "without restitution kinetic, potential and stored contact energy together never rise", "[energy][dissipation]")
 {
     // A step changes the energy by λᵀG v − ½ |h f + Gᵀλ|² (metric M⁻¹) with u_n λ_n ≤ 0 and friction against the slip:
-    // never up. 1e-7: what steps may add whose residual is not zero. What springs hold is told for the normals of a
+    // never up. 1e-7: what steps may add whose residual is not zero. What springs hold is reported for the normals of a
     // step, and turning normals change it between steps; without friction no step adds any (tests/properties).
     const bool rigid = GENERATE(true, false);
     World world = spheres_above_a_box(0.5, 0.0, rigid ? rigid_settings(1e-9, 5000) : matched_settings(1e-9, 1000));

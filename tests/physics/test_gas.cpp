@@ -41,7 +41,7 @@ World lattice(double solid_fraction, int seed)
         mean += velocity / count;
         fastest = std::max(fastest, velocity.norm());
     }
-    for (Motion& m : world.state.motion) m.velocity -= mean;
+    for (Body& m : world.state.bodies) m.velocity -= mean;
     world.model.periodicity.length.setConstant(along * spacing);
     world.model.world = {Vec3::Zero(), Vec3::Constant(along * spacing)};
     world.model.time_step = 0.1 * diameter / fastest;

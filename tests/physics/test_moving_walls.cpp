@@ -104,7 +104,7 @@ TEST_CASE("a sphere stays on a plate shaken with less than g", "[moving_walls]")
     const double frequency = 30.0;
     const double amplitude = 0.9 * standard_gravity / std::pow(2 * pi * frequency, 2);
     World world = sphere_on_moving_plane({}, rigid_settings(), {Shaking{{}, amplitude * Vec3::UnitZ(), frequency}});
-    world.state.motion[0].velocity.z() = 2 * pi * frequency * amplitude; // as the plate
+    world.state.body(0).velocity.z() = 2 * pi * frequency * amplitude; // as the plate
     double worst = 0.0;
     for (int step = 0; step < 1000; ++step) {
         world.step();
@@ -138,7 +138,7 @@ TEST_CASE("a sphere leaves a plate shaken with more than g where the plate falls
     const double frequency = 20.0, ratio = 2.0, omega = 2 * pi * frequency;
     const double amplitude = ratio * standard_gravity / (omega * omega);
     World world = sphere_on_moving_plane({}, rigid_settings(), {Shaking{{}, amplitude * Vec3::UnitZ(), frequency}});
-    world.state.motion[0].velocity.z() = omega * amplitude;
+    world.state.body(0).velocity.z() = omega * amplitude;
     const double expected = std::asin(1.0 / ratio) / omega;
     double left = -1.0;
     while (world.state.time < 2 * expected && left < 0.0) {
@@ -188,7 +188,7 @@ TEST_CASE("a sphere that does not turn rests in a turning drum at the angle of f
     // Laid down at the bottom it is taken up to there first.
     World from_below = world;
     from_below.state.position[0] = -arm * Vec3::UnitZ();
-    from_below.state.motion[0].velocity.setZero();
+    from_below.state.body(0).velocity.setZero();
     double mean = 0.0;
     constexpr int steps = 20000;
     for (int k = 0; k < steps; ++k) {
@@ -219,7 +219,7 @@ TEST_CASE("rolling resistance at a turning wall is against the spin relative to 
     const double size = walls.rolling(0).reach * walls.impulse(0).dot(walls.normal(0));
     CHECK(size > 0.0);
     CHECK(walls.rolling_impulse(0).norm() < 1e-2 * size);
-    tipped.state.motion[0].rim_velocity.setZero(); // at rest it is dragged with the whole resistance
+    tipped.state.body(0).rim_velocity.setZero(); // at rest it is dragged with the whole resistance
     tipped.step(1);
     const double whole = walls.rolling(0).reach * walls.impulse(0).dot(walls.normal(0));
     CHECK(walls.rolling_impulse(0).y() == within(1e-3, whole));
@@ -250,14 +250,14 @@ TEST_CASE("torque times rate and force times velocity are what walls put in, and
     for (int step = 0; step < 800; ++step) {
         double before = kinetic_energy(world.state), gravity_work = 0.0;
         std::vector<Vec3> old;
-        for (const auto& m : world.state.motion) old.push_back(m.velocity);
+        for (const auto& m : world.state.bodies) old.push_back(m.velocity);
         const double start = world.state.time;
         world.step();
         // The impulses of gravity and of contacts act at the mean of the velocities before and after: T₁ − T₀ =
         // Σ p·(v₀ + v₁)/2.
         for (std::size_t i = 0; i < world.state.count(); ++i)
             gravity_work += world.state.mass(i) * time_step *
-                            world.model.gravity.dot(0.5 * (old[i] + world.state.motion[i].velocity));
+                            world.model.gravity.dot(0.5 * (old[i] + world.state.body(i).velocity));
         const double loss = gravity_work + world.report.outcome.wall_work - (kinetic_energy(world.state) - before);
         least = std::min(least, loss);
         dissipated += loss;

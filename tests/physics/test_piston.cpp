@@ -236,7 +236,7 @@ TEST_CASE("what a plate in a jostling heap gains in momentum is what gravity, lo
         world.add_piston(plate(Vec3(0.003, -0.002, 0.04), 0.035), 0.05, Vec3(0, 0.1, 1), {{0.0, -load}});
     const Vec3 guide = world.model.pistons[piston].guide, across = any_perpendicular(guide);
     double weights = 0.05;
-    for (const Motion& m : world.state.motion) weights += 1.0 / m.inverse_mass;
+    for (const Body& m : world.state.bodies) weights += 1.0 / m.inverse_mass;
     std::size_t contacts = 0;
     for (int k = 0; k < 500; ++k) {
         const Vec3 before = world.momentum();

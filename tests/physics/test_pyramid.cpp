@@ -11,7 +11,7 @@ namespace
 double fastest_sphere(const World& world)
 {
     double fastest = 0.0;
-    for (const Motion& motion : world.state.motion) fastest = std::max(fastest, motion.velocity.norm());
+    for (const Body& motion : world.state.bodies) fastest = std::max(fastest, motion.velocity.norm());
     return fastest;
 }
 

@@ -38,9 +38,9 @@ double squeeze(World& world, double move)
 } // namespace
 
 TEST_CASE("a heavy ball that meets a light one on the floor gets no energy, and does not pass it",
-    "[stabilisation][!mayfail]")
+    "[law][!mayfail]")
 {
-    // What pushing out adds is told in the books; 0.5 % at most here.
+    // What pushing out adds is reported in the books; 0.5 % at most here.
     const double ratio = GENERATE(100.0, 3000.0), e = GENERATE(0.0, 0.4, 0.9);
     const double push_out_speed = GENERATE(0.0, automatic_push_out_speed());
     const double move = GENERATE(0.003, 0.01, 0.1, 0.3), start = GENERATE(0.001, 0.013, 0.027, 0.31, 0.5);

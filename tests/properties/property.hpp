@@ -19,7 +19,7 @@ struct Verdict {
     };
     Outcome outcome = Outcome::holds;
     std::string why = {};    ///< it fails, in a line or more, with the world; of an unsolved one a line
-    double measure = 0.0;    ///< of which the largest is told
+    double measure = 0.0;    ///< of which the largest is reported
     bool must_solve = false; ///< it is a world of a kind that is always solved
 };
 

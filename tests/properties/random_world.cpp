@@ -273,7 +273,7 @@ private:
         if (k < state.count()) {
             const Vec3 apart = x - state.position[k];
             const double distance = apart.norm();
-            return {distance > 0 ? Vec3(apart / distance) : Vec3::UnitZ(), distance - r - state.radius(k)};
+            return {distance > 0 ? Vec3(apart / distance) : Vec3::UnitZ(), distance - r - state.radius[k]};
         }
         const PlacedWall& wall = walls[k - state.count()];
         WallPoint best{Vec3::Zero(), Vec3::UnitZ(), infinity, 0};
@@ -366,11 +366,11 @@ private:
         const State& state = world_.state;
         const Vec3 axis = tilted(Vec3::UnitZ());
         std::size_t top = 0;
-        const auto height = [&](std::size_t i) { return axis.dot(state.position[i]) + state.radius(i); };
+        const auto height = [&](std::size_t i) { return axis.dot(state.position[i]) + state.radius[i]; };
         for (std::size_t i = 1; i < state.count(); ++i)
             if (height(i) > height(top)) top = i;
         const double radius = d_max_ * draw_.one_of({0.5, 1.0, 4.0});
-        const Vec3 center = state.position[top] + (state.radius(top) + draw_gap()) * axis +
+        const Vec3 center = state.position[top] + (state.radius[top] + draw_gap()) * axis +
                             0.3 * radius * draw_.uniform(0, 1) * any_perpendicular(axis);
         double least = infinity, most = 0.0;
         for (std::size_t i = 0; i < state.count(); ++i) {
@@ -409,9 +409,9 @@ private:
                 if (draw_.chance(0.2)) along = -along;
                 if (aim.gap > 1e-3 * d_min_ && draw_.chance(0.7)) speed = aim.gap / h_ * draw_.uniform(0.3, 2);
             }
-            state.motion[i].velocity = std::min(speed, fast) * along;
+            state.body(i).velocity = std::min(speed, fast) * along;
             if (world_.model.physics.spin && draw_.chance(0.5))
-                state.motion[i].rim_velocity = fast * draw_.uniform(0, 1) * draw_.direction();
+                state.body(i).rim_velocity = fast * draw_.uniform(0, 1) * draw_.direction();
         }
     }
 
@@ -491,7 +491,7 @@ double largest_velocity(const World& world)
     const Model& model = world.model;
     const double h = model.time_step;
     double largest = std::max(h * model.gravity.norm(), 1e-3 * model.min_diameter / h);
-    for (const Motion& m : world.state.motion) largest = std::max({largest, m.velocity.norm(), m.rim_velocity.norm()});
+    for (const Body& m : world.state.bodies) largest = std::max({largest, m.velocity.norm(), m.rim_velocity.norm()});
     for (const PistonState& piston : world.state.pistons) largest = std::max(largest, piston.velocity.norm());
     for (const Touch& touch : touches(world, h, model.min_diameter))
         largest = std::max(largest, touch.wall_velocity.norm());
@@ -507,9 +507,9 @@ std::string contact_table(const World& world, int parts)
     text.precision(6);
     for_each_contact(copy.network, [&](const TileContacts& contacts, std::size_t k, bool with_wall) {
         const Contact c = contacts.contact(k);
-        Vec3 u = copy.state.motion[c.a].velocity;
+        Vec3 u = copy.state.body(c.a).velocity;
         if (with_wall && contacts.has_moving_walls()) u -= contacts.wall(k).velocity;
-        if (!with_wall) u -= copy.state.motion[c.b].velocity;
+        if (!with_wall) u -= copy.state.body(c.b).velocity;
         text << "    " << copy.state.id[c.a] << (with_wall ? " at wall " : " on ")
              << (with_wall ? c.b : static_cast<std::int32_t>(copy.state.id[c.b])) << ": kind "
              << static_cast<int>(c.kind) << ", gap " << c.gap / d << " d, kappa " << c.compression / d << " d, u_n "
@@ -533,10 +533,10 @@ std::string picture(const RandomWorld& own)
     double least = infinity;
     for (std::size_t i = 0; i < world.state.count(); ++i) least = std::min(least, world.state.mass(i));
     for (std::size_t i = 0; i < world.state.count(); ++i)
-        text << "  sphere " << world.state.id[i] << ": r " << world.state.radius(i) / d << ", m "
+        text << "  sphere " << world.state.id[i] << ": r " << world.state.radius[i] / d << ", m "
              << world.state.mass(i) / least << ", x " << told(world.state.position[i], d) << ", v "
-             << told(world.state.motion[i].velocity, d / h)
-             << (world.model.physics.spin ? ", rim " + told(world.state.motion[i].rim_velocity, d / h) : "") << '\n';
+             << told(world.state.body(i).velocity, d / h)
+             << (world.model.physics.spin ? ", rim " + told(world.state.body(i).rim_velocity, d / h) : "") << '\n';
     for (std::size_t k = 0; k < world.state.pistons.size(); ++k)
         text << "  piston: v " << told(world.state.pistons[k].velocity, d / h) << ", m "
              << world.model.pistons[k].mass / least << '\n';
@@ -547,8 +547,8 @@ std::string picture(const RandomWorld& own)
 bool is_finite(const World& world)
 {
     return std::ranges::all_of(world.state.position, [](const Vec3& x) { return x.allFinite(); }) &&
-           std::ranges::all_of(world.state.motion,
-               [](const Motion& m) { return m.velocity.allFinite() && m.rim_velocity.allFinite(); });
+           std::ranges::all_of(
+               world.state.bodies, [](const Body& m) { return m.velocity.allFinite() && m.rim_velocity.allFinite(); });
 }
 
 } // namespace talus::test

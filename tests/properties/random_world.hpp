@@ -32,7 +32,7 @@ struct RandomWorld {
     bool is_frictionless() const { return !world.model.physics.friction; }
     /// Of the lightest and the heaviest body, pistons included.
     double mass_ratio() const;
-    bool has_moving_walls() const; ///< that move as told
+    bool has_moving_walls() const; ///< that move as prescribed
 };
 
 RandomWorld draw_world(std::uint64_t seed, const Wish& wish = {});

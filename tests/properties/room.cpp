@@ -39,7 +39,7 @@ std::vector<Touch> touches(const World& world, double h, double within)
     for (std::size_t i = 0; i < state.count(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
             const Vec3 apart = state.position[i] - state.position[j];
-            const double gap = apart.norm() - state.radius(i) - state.radius(j);
+            const double gap = apart.norm() - state.radius[i] - state.radius[j];
             if (gap < within) found.push_back({i, j, false, apart.normalized(), Vec3::Zero(), gap});
         }
     const auto walls = place_walls(world.model, state, h);
@@ -48,7 +48,7 @@ std::vector<Touch> touches(const World& world, double h, double within)
     for (std::size_t w = 0; w < walls.size(); ++w)
         for (std::size_t i = 0; i < state.count(); ++i) {
             const Vec3& x = state.position[i];
-            const double r = state.radius(i);
+            const double r = state.radius[i];
             patches.clear();
             points.clear();
             walls[w].patches_near(Box{x, x}.grown(r + within), patches);

@@ -27,9 +27,9 @@ std::vector<Touch> touches(const World& world, double h, double within);
 Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 /// Whether some velocities of spheres and pistons keep all that touches from closing, and even part it with a
-/// ten-thousandth of a diameter in a step, none of them many times as fast as the walls that move as told: the least
-/// ones that do (ibid.). A sphere that fits exactly between two walls that stand still has none: rigid impulses may be
-/// anything there.
+/// ten-thousandth of a diameter in a step, none of them many times as fast as the walls that move as prescribed: the
+/// least ones that do (ibid.). A sphere that fits exactly between two walls that stand still has none: rigid impulses
+/// may be anything there.
 bool has_room(const World& world, double h);
 
 } // namespace talus::test

@@ -21,7 +21,7 @@ bool is_solved(const World& world, const StepReport& report)
     for (const TileContacts& tile : world.network.contacts.walls) note(tile);
     note(world.network.contacts.pistons);
     for (std::size_t i = 0; i < world.state.count(); ++i)
-        momentum = std::max(momentum, world.state.mass(i) * world.state.motion[i].velocity.squaredNorm());
+        momentum = std::max(momentum, world.state.mass(i) * world.state.body(i).velocity.squaredNorm());
     if (size < 1e-280) return true; // the squares of the impulses are too small to be numbers
     return report.solve.residual * report.solve.residual * size <= digits * digits * momentum;
 }

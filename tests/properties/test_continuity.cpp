@@ -29,7 +29,7 @@ double difference(const World& a, const World& b, const Transform& back = {})
         largest = size <= largest ? largest : size; // what is not a number is larger
     };
     for (std::size_t i = 0; i < a.state.count(); ++i) {
-        const Motion &m = a.state.motion[i], &n = b.state.motion[b.index_of(a.state.id[i])];
+        const Body &m = a.state.body(i), &n = b.state.body(b.index_of(a.state.id[i]));
         note(m.velocity, back.turn.transpose() * (n.velocity - back.boost) / speed);
         note(m.rim_velocity, back.turn.determinant() * (back.turn.transpose() * n.rim_velocity) / speed);
     }
@@ -72,8 +72,8 @@ bool is_at_threshold(const World& world, double h)
     const double largest = largest_velocity(world);
     const auto near = touches(world, h, 0.5 * model.min_diameter);
     return std::ranges::any_of(near, [&](const Touch& touch) {
-        Vec3 u = world.state.motion[touch.a].velocity - touch.wall_velocity;
-        if (!touch.with_wall) u -= world.state.motion[touch.b].velocity;
+        Vec3 u = world.state.body(touch.a).velocity - touch.wall_velocity;
+        if (!touch.with_wall) u -= world.state.body(touch.b).velocity;
         const double u_n = u.dot(touch.normal);
         const double ahead = u_n + (touch.with_wall ? h * model.gravity.dot(touch.normal) : 0.0);
         return (slowest > 0.0 && std::abs(u_n + slowest) < 1e-12 * largest) ||
@@ -96,8 +96,8 @@ Verdict perturbed_a_little(std::uint64_t seed, const Wish& wish)
     Draw draw(~seed);
     for (std::size_t i = 0; i < other.state.count(); ++i) {
         other.state.position[i] += perturbation * way * draw.in_cube();
-        other.state.motion[i].velocity += perturbation * largest * draw.in_cube();
-        if (world.model.physics.spin) other.state.motion[i].rim_velocity += perturbation * largest * draw.in_cube();
+        other.state.body(i).velocity += perturbation * largest * draw.in_cube();
+        if (world.model.physics.spin) other.state.body(i).rim_velocity += perturbation * largest * draw.in_cube();
     }
     const World other_before = other;
     world.report = make_part(world, at.parts);

@@ -34,7 +34,7 @@ Bodies bodies_of(const World& world)
 {
     Bodies sum{kinetic_energy(world.state), 0.0};
     for (std::size_t i = 0; i < world.state.count(); ++i)
-        sum.power += world.state.mass(i) * world.model.gravity.dot(world.state.motion[i].velocity);
+        sum.power += world.state.mass(i) * world.model.gravity.dot(world.state.body(i).velocity);
     for (std::size_t k = 0; k < world.model.pistons.size(); ++k) {
         const Piston& piston = world.model.pistons[k];
         const PistonState& own = world.state.pistons[k];
@@ -155,7 +155,7 @@ double lifted(const World& before, const World& after, double h)
     double sum = 0.0;
     for (std::size_t i = 0; i < after.state.count(); ++i) {
         const Vec3 way = after.state.position[i] - before.position(after.state.id[i]);
-        sum -= after.state.mass(i) * after.model.gravity.dot(way - h * after.state.motion[i].velocity);
+        sum -= after.state.mass(i) * after.model.gravity.dot(way - h * after.state.body(i).velocity);
     }
     for (std::size_t k = 0; k < after.model.pistons.size(); ++k) {
         const Piston& piston = after.model.pistons[k];
@@ -234,7 +234,7 @@ Verdict books_are_right(std::uint64_t seed)
 }
 
 /// Walls that close until there is no room, and on: all stays finite, no energy comes but what they put in, and the run
-/// is told.
+/// is reported.
 Verdict pressed(std::uint64_t seed)
 {
     RandomWorld own = draw_world(seed, {.push_out = false, .press = true});
@@ -263,7 +263,8 @@ Verdict pressed(std::uint64_t seed)
     if (steps_without == 0) return {Verdict::Outcome::left_out};
     if (!told && steps_without > 120 && deepest > 0.3) {
         std::ostringstream why;
-        why << "nothing was told in " << steps_without << " steps without room, overlaps up to " << deepest << " d\n";
+        why << "nothing was reported in " << steps_without << " steps without room, overlaps up to " << deepest
+            << " d\n";
         return {Verdict::Outcome::fails, why.str() + picture(own)};
     }
     return {Verdict::Outcome::no_room};
@@ -281,8 +282,8 @@ TEST_CASE("P1 the books say what springs hold, what pushing out puts in, and wha
     hold("books", books_are_right);
 }
 
-TEST_CASE(
-    "P1 where walls leave no room all stays finite, energy is what they put in, and it is told", "[press][!mayfail]")
+TEST_CASE("P1 where walls leave no room all stays finite, energy is what they put in, and it is reported",
+    "[press][!mayfail]")
 {
     hold("press", pressed, 0.1); // some hundred steps each
 }

@@ -142,7 +142,7 @@ std::string difference_in_bits(const World& world, const World& with)
     for (std::size_t i = 0; i < world.state.count(); ++i) {
         const std::int64_t id = world.state.id[i];
         const std::size_t j = with.index_of(id);
-        const Motion &m = world.state.motion[i], &n = with.state.motion[j];
+        const Body &m = world.state.body(i), &n = with.state.body(j);
         std::ostringstream text;
         text << "sphere " << id << ": velocity by " << (m.velocity - n.velocity).norm() << " m/s, rim by "
              << (m.rim_velocity - n.rim_velocity).norm() << " m/s, place by "
@@ -164,7 +164,7 @@ double difference(const World& world, const World& with)
         largest = size <= largest ? largest : size;
     };
     for (std::size_t i = 0; i < world.state.count(); ++i) {
-        const Motion &m = world.state.motion[i], &n = with.state.motion[with.index_of(world.state.id[i])];
+        const Body &m = world.state.body(i), &n = with.state.body(with.index_of(world.state.id[i]));
         note(m.velocity, n.velocity);
         note(m.rim_velocity, n.rim_velocity);
     }

@@ -62,8 +62,8 @@ Fault pair_in_flight(Draw& draw)
     set_as_a_scene(world, law);
     const double h = world.model.time_step, t = h * draw.uniform(1, 4);
     if (-u.dot(n) < 6.0 * h * g.norm()) return {}; // slower ones do not rebound
-    for (Motion& m : world.state.motion) {
-        const std::size_t i = static_cast<std::size_t>(&m - world.state.motion.data());
+    for (Body& m : world.state.bodies) {
+        const std::size_t i = static_cast<std::size_t>(&m - world.state.bodies.data());
         world.state.position[i] -= t * m.velocity + 0.5 * t * t * g;
     }
     world.step(8);
@@ -303,7 +303,7 @@ double rebound(const Drop& drop, double e)
     const double h = world.model.time_step;
     // The beads come to rest while it is still high above them; then it is let go nearer to them.
     world.step(150);
-    Motion& fast = world.state.motion[world.index_of(id)];
+    Body& fast = world.state.body(world.index_of(id));
     Vec3& x = world.state.position[world.index_of(id)];
     fast.velocity = Vec3(0, 0, -drop.speed);
     x.z() = drop.beads * d + r + drop.speed * h * (3.0 + drop.phase);

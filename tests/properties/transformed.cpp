@@ -137,9 +137,10 @@ private:
             const std::size_t j = t_.reversed ? count - 1 - i : i;
             state.position[j] = t_.place(old.position[i]);
             state.position_rest[j] = t_.length * t_.arrow(old.position_rest[i]);
-            const Motion& m = old.motion[i];
-            state.motion[j] = {t_.velocity(m.velocity), m.inverse_mass / t_.mass, speed() * t_.axis(m.rim_velocity),
-                t_.length * m.radius};
+            state.radius[j] = t_.length * old.radius[i];
+            const Body& m = old.body(i);
+            state.body(j) = {t_.velocity(m.velocity), m.inverse_mass / t_.mass, speed() * t_.axis(m.rim_velocity),
+                t_.length * m.spin_radius};
             state.material[j] = old.material[i];
             state.id[j] = old.id[i];
             state.last_wall[j] = old.last_wall[i];

@@ -269,5 +269,6 @@ TABLES = [
            "build/frictionless_bed.hdf5", "build/talus dump --force hopper --at 2.0 -o build/flow.hdf5",
            "build/talus dump --force pile_plain --at 4.5 -o build/pile.hdf5")),
     Table("report_page", "tests/benchmarks/report_page.py", ROOT / "tests/results/report_page.md", 8),
+    Table("test_times", "tests/results/test_times.py", ROOT / "tests/results/test_times.md", 5, ("tests/run",)),
     Table("fuzz", "tests/run fuzz 600", ROOT / "tests/results/fuzz.md", 50),
 ]

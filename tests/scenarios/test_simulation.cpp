@@ -34,7 +34,7 @@ TEST_CASE("spheres that touch without overlap are none", "[check_overlaps]")
     CHECK(check_overlaps(build_scene(small_scene()).simulation).count == 0); // as every fill
 }
 
-TEST_CASE("the worst of several overlaps is told with both spheres", "[check_overlaps]")
+TEST_CASE("the worst of several overlaps is reported with both spheres", "[check_overlaps]")
 {
     auto simulation = empty_simulation();
     add_bead(simulation, Vec3(0.01, 0.01, 0.1));
@@ -48,7 +48,7 @@ TEST_CASE("the worst of several overlaps is told with both spheres", "[check_ove
     CHECK(check.wall == -1);
 }
 
-TEST_CASE("an overlap with a wall is told with the wall", "[check_overlaps]")
+TEST_CASE("an overlap with a wall is reported with the wall", "[check_overlaps]")
 {
     auto simulation = empty_simulation();
     add_bead(simulation, Vec3(0.02, 0.02, 0.003)); // 2 mm into the floor of the box
@@ -92,7 +92,7 @@ TEST_CASE("a run that pours and empties keeps its ledger", "[simulation]")
     CHECK(simulation.outflow.mass == Approx(inserted_mass));
 }
 
-TEST_CASE("steps are made until the time, each told once, or until a hook wants no more", "[simulation]")
+TEST_CASE("steps are made until the time, each reported once, or until a hook wants no more", "[simulation]")
 {
     auto simulation = build_scene(small_scene()).simulation;
     const double h = simulation.model.time_step;
@@ -114,7 +114,7 @@ TEST_CASE("an escape ends the steps, or the sphere is taken out before the next 
     auto simulation = build_scene(scene).simulation;
     const auto spheres = simulation.state.count();
     simulation.state.position[3].z() = simulation.model.world.min.z();
-    simulation.state.motion[3].velocity = Vec3(0, 0, -1);
+    simulation.state.body(3).velocity = Vec3(0, 0, -1);
     const StepReport last = run_until(simulation, 10.0 * simulation.model.time_step, {});
     CHECK(simulation.state.steps == (removed ? 10 : 1));
     CHECK(simulation.incident_policy.stops(last) == !removed);

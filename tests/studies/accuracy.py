@@ -5,7 +5,7 @@
     tests/studies/accuracy.py
 
 For each setting that is offered: its worst error over the studies of results/, rounded up to a hundredth of a per cent,
-and the geometric mean of its cost by that of the usual setting with matched. Which errors count is told in README.md.
+and the geometric mean of its cost by that of the usual setting with matched. Which errors count stands in README.md.
 """
 import csv
 import math

@@ -131,7 +131,7 @@ def problems_of_changes():
     for result, wanted in (({"step": seen, "solver": bound}, "<span>step ± 0.0012 · solver ± below 0.003</span>"),
                            ({"step": unknown, "solver": unknown}, "<span>step ± ? · solver ± ?</span>"), ({"value": 1.0}, "")):
         if changes(result) != wanted:
-            yield f"what companions found of {result} is told as {changes(result)}"
+            yield f"what companions found of {result} is reported as {changes(result)}"
 
 
 def problems_of_refusals(run, folder):

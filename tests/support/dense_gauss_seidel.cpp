@@ -49,10 +49,10 @@ void add_contact(DenseProblem& p, const State& state, const DenseContact& contac
     double scale = 1.0;
     if (!contact.with_wall) {
         const double distance = (state.position[contact.a] - state.position[contact.b]).norm();
-        scale = distance / (state.radius(contact.a) + state.radius(contact.b));
-        fill_rows(p.jacobian, row, contact.b, scale * state.radius(contact.b) * contact.normal, basis, -1.0);
+        scale = distance / (state.radius[contact.a] + state.radius[contact.b]);
+        fill_rows(p.jacobian, row, contact.b, scale * state.radius[contact.b] * contact.normal, basis, -1.0);
     }
-    fill_rows(p.jacobian, row, contact.a, -scale * state.radius(contact.a) * contact.normal, basis, 1.0);
+    fill_rows(p.jacobian, row, contact.a, -scale * state.radius[contact.a] * contact.normal, basis, 1.0);
     p.target[row] = contact.target;
     p.drift.segment<contact_rows>(row) = basis.transpose() * contact.wall_velocity;
     p.drift.segment<rolling_rows>(row + contact_rows) = basis.rightCols<rolling_rows>().transpose() * contact.wall_spin;
@@ -222,10 +222,10 @@ DenseProblem make_dense_problem(const State& state, const std::vector<DenseConta
     p.inverse_mass.resize(columns);
     p.velocity.resize(columns);
     for (std::size_t i = 0; i < state.count(); ++i) {
-        const double inertia = 0.4 * state.mass(i) * state.radius(i) * state.radius(i);
+        const double inertia = 0.4 * state.mass(i) * state.radius[i] * state.radius[i];
         p.inverse_mass.segment<3>(6 * static_cast<Index>(i)).setConstant(1.0 / state.mass(i));
         p.inverse_mass.segment<3>(6 * static_cast<Index>(i) + 3).setConstant(spin ? 1.0 / inertia : 0.0);
-        p.velocity.segment<3>(6 * static_cast<Index>(i)) = state.motion[i].velocity;
+        p.velocity.segment<3>(6 * static_cast<Index>(i)) = state.body(i).velocity;
         p.velocity.segment<3>(6 * static_cast<Index>(i) + 3) = state.angular_velocity(i);
     }
     p.jacobian = Eigen::MatrixXd::Zero(all_rows, columns);

@@ -15,7 +15,7 @@ namespace talus::test
 struct DenseContact {
     std::size_t a = 0;
     std::size_t b = 0;                 ///< unused at a wall
-    bool with_wall = false;            ///< b is a wall: it moves as told below, unless it is a piston's
+    bool with_wall = false;            ///< b is a wall: it moves as prescribed below, unless it is a piston's
     int piston = -1;                   ///< its index, if it is
     Vec3 piston_arm = Vec3::Zero();    ///< from its centre to the contact
     Vec3 wall_velocity = Vec3::Zero(); ///< of the wall's material at the contact

@@ -62,10 +62,10 @@ struct World {
 
     std::size_t index_of(std::int64_t id) const;
     Vec3 position(std::int64_t id = 0) const { return state.position[index_of(id)]; }
-    Vec3 velocity(std::int64_t id = 0) const { return state.motion[index_of(id)].velocity; }
+    Vec3 velocity(std::int64_t id = 0) const { return state.body(index_of(id)).velocity; }
     Vec3 angular_velocity(std::int64_t id = 0) const { return state.angular_velocity(index_of(id)); }
     double mass(std::int64_t id = 0) const { return state.mass(index_of(id)); }
-    double radius(std::int64_t id = 0) const { return state.radius(index_of(id)); }
+    double radius(std::int64_t id = 0) const { return state.radius[index_of(id)]; }
 
     /// Σ m v, pistons included [kg m/s].
     Vec3 momentum() const;

@@ -95,7 +95,7 @@ def check_known(folder):
     for k, (truth, half) in enumerate(((x / 10, 1.96 * deviation / 10), (numpy.log10(y) / 2, 1.96 * deviation / 10))):
         median, low, high = found.posterior.interval(k)
         assert abs(median - truth) < half and 0.8 * half < 0.5 * (high - low) < 1.7 * half, f"key {k}: {median} from {low} to {high}, not {truth} ± {half}"
-    assert found.chance() > 0.05, "measurements that agree are told not to"
+    assert found.chance() > 0.05, "measurements that agree are said not to"
     apart = [dataclasses.replace(measured[0], value=60.0), measured[1]]
     assert find(dataclasses.replace(target, measured=apart), {"hopper": cases}).chance() < 0.01, "measurements that cannot be met are told to be"
 

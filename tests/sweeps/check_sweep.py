@@ -63,7 +63,7 @@ def check_texts(talus, folder):
 
 
 def check_complaints(talus, folder):
-    """What is wrong is told in one sentence, and nothing is made."""
+    """What is wrong is reported in one sentence, and nothing is made."""
     for text, sentence in (
             ("[vary]\na.b = 3\n", f".toml:{HEAD.count(chr(10)) + 2}: 'a.b' must be a list of values or a range"),
             ("[vary]\na.b = { from = 1, to = 2 }\n", "needs 'steps'"),

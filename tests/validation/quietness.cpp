@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "quietness.hpp"
 
-#include "core/sensors/quietness.hpp"
+#include "app/findings/quietness.hpp"
 
 #include <algorithm>
 #include <cmath>

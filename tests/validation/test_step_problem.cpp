@@ -26,12 +26,12 @@ State swept_by_kernel(const Simulation& simulation, int sweeps)
     auto network = simulation.network;
     const Model& model = simulation.model;
     PistonGroup pistons(network, state, model, model.time_step);
-    for (Motion& m : state.motion) m.velocity += model.time_step * model.gravity;
+    for (Body& m : state.bodies) m.velocity += model.time_step * model.gravity;
     SolverSettings solver = model.solver;
     solver.tolerance = 0.0;
     solver.max_sweeps = sweeps;
-    const double warm_size = apply_warm_start(network, pistons, state.motion, model.physics);
-    solve_contacts(network, pistons, state.motion, model.physics, solver, warm_size);
+    const double warm_size = apply_warm_start(network, pistons, state.bodies, model.physics);
+    solve_contacts(network, pistons, state.bodies, model.physics, solver, warm_size);
     pistons.store(network, state);
     return state;
 }
@@ -78,10 +78,10 @@ double worst_difference(const State& kernel, const StepProblem& step, const Eige
     for (std::size_t body = 0; body < kernel.count(); ++body) {
         const std::size_t i = step.sphere_of_body[body];
         const auto own = step.problem.dofs_of(body, blocks);
-        compare_velocities(kernel.motion[i].velocity, own.head<3>());
+        compare_velocities(kernel.body(i).velocity, own.head<3>());
         if (own.size() == 3) continue;
-        rim_difference = std::max(rim_difference, (kernel.motion[i].rim_velocity - own.tail<3>()).norm());
-        rim_speed = std::max(rim_speed, kernel.motion[i].rim_velocity.norm());
+        rim_difference = std::max(rim_difference, (kernel.body(i).rim_velocity - own.tail<3>()).norm());
+        rim_speed = std::max(rim_speed, kernel.body(i).rim_velocity.norm());
     }
     for (std::size_t k = 0; k < kernel.pistons.size(); ++k)
         compare_velocities(kernel.pistons[k].velocity, step.problem.dofs_of(kernel.count() + k, blocks).head<3>());

@@ -114,7 +114,7 @@ TEST_CASE("a change of nothing is hardly ever seen, and a large one always", "[a
     if (added == 10.0) CHECK(seen == runs);
 }
 
-TEST_CASE("from fewer than four pieces nothing is told", "[app][companions][degenerate]")
+TEST_CASE("from fewer than four pieces nothing is reported", "[app][companions][degenerate]")
 {
     ChangesOfResult changes;
     CHECK_FALSE(changes.by_step().is_known());

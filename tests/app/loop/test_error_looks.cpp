@@ -46,7 +46,7 @@ std::string bytes_of(Simulation& simulation)
 std::map<std::int64_t, Vec3> velocities(const State& state)
 {
     std::map<std::int64_t, Vec3> all;
-    for (std::size_t i = 0; i < state.count(); ++i) all[state.id[i]] = state.motion[i].velocity;
+    for (std::size_t i = 0; i < state.count(); ++i) all[state.id[i]] = state.body(i).velocity;
     return all;
 }
 

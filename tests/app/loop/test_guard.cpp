@@ -7,7 +7,8 @@
 
 using Catch::Matchers::Contains;
 
-TEST_CASE("a sphere that escapes ends the run with 3, and is told with id, speed and the wall it left", "[app][guard]")
+TEST_CASE(
+    "a sphere that escapes ends the run with 3, and is reported with id, speed and the wall it left", "[app][guard]")
 {
     const Workplace place;
     const Outcome outcome = place.run(bead_on_a_table);
@@ -82,7 +83,7 @@ TEST_CASE("with on_escape = \"remove\" a sphere that escapes is taken out, kept 
 }
 
 TEST_CASE(
-    "a press that closes on a rigid sphere stops the run, or is told once where the scene goes on", "[app][guard]")
+    "a press that closes on a rigid sphere stops the run, or is reported once where the scene goes on", "[app][guard]")
 {
     const std::string press = bead_on_a_table + R"([[wall]]
 name = "lid"
@@ -117,7 +118,7 @@ from = 0.11
     CHECK(line_of(gone_on.err + "|", "|") == 2); // once
 }
 
-TEST_CASE("spheres that move far in a step are told once, with the step that would do", "[app][guard]")
+TEST_CASE("spheres that move far in a step are reported once, with the step that would do", "[app][guard]")
 {
     const Workplace place;
     const Outcome outcome = place.run(bead_on_a_table, "--set time.step=0.0022 --until 0.1"); // 0.11 d in a step

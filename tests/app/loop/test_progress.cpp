@@ -30,7 +30,7 @@ std::string said(StepWatch& watch, const StepReport& report, int steps)
 
 } // namespace
 
-TEST_CASE("long moves are told once, in the tenth step that has them, with a step that would do", "[app][watch]")
+TEST_CASE("long moves are reported once, in the tenth step that has them, with a step that would do", "[app][watch]")
 {
     StepWatch watch;
     StepReport fast;
@@ -42,7 +42,7 @@ TEST_CASE("long moves are told once, in the tenth step that has them, with a ste
     CHECK(said(watch, fast, 1000).empty());
 }
 
-TEST_CASE("deep overlap is told once where it lasts, with a step that makes contacts stiff enough", "[app][watch]")
+TEST_CASE("deep overlap is reported once where it lasts, with a step that makes contacts stiff enough", "[app][watch]")
 {
     StepWatch watch;
     StepReport deep;

@@ -28,7 +28,7 @@ StepReport report(double kinetic, double potential, double contact_at_beginning)
 
 TEST_CASE("energy that goes into the contacts and comes back is neither lost nor gained", "[app][energy]")
 {
-    // 1 J in all at the end of every step; the contacts' share of it is told one step later
+    // 1 J in all at the end of every step; the contacts' share of it is reported one step later
     EnergyBalance balance;
     balance.add(report(1.0, 0.0, 0.0), false);
     balance.add(report(0.4, 0.0, 0.0), true);

@@ -34,7 +34,7 @@ TEST_CASE("a ledger closes when every sphere is accounted for", "[app][summary]"
     CHECK_FALSE(torn.closes());
 }
 
-TEST_CASE("an incident is told with id, place, speed and the wall touched last", "[app][summary]")
+TEST_CASE("an incident is reported with id, place, speed and the wall touched last", "[app][summary]")
 {
     const std::vector<std::string> walls = {"floor", "funnel"};
     const Incident fast{Incident::Kind::blow_up, 42, Vec3(1.0, 2.0, 0.5), 123.0, 1};

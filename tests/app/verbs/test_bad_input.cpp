@@ -49,7 +49,7 @@ std::string blamed_line(const std::string& scene, const std::string& part)
 
 } // namespace
 
-TEST_CASE("a mistake in a scene is told in one sentence with file, line and what is allowed, and leaves no folder",
+TEST_CASE("a mistake in a scene is reported in one sentence with file, line and what is allowed, and leaves no folder",
     "[app][input]")
 {
     for (const Mistake& mistake : mistakes) {
@@ -64,7 +64,7 @@ TEST_CASE("a mistake in a scene is told in one sentence with file, line and what
     }
 }
 
-TEST_CASE("an STL file that is missing or broken is told with the place that names it", "[app][input]")
+TEST_CASE("an STL file that is missing or broken is reported with the place that names it", "[app][input]")
 {
     const Workplace place;
     const std::string scene = beads_in_a_box + "[[wall]]\nname = \"cup\"\nmaterial = \"glass\"\nmesh = \"cup.stl\"\n";
@@ -88,7 +88,7 @@ TEST_CASE("an STL file that is missing or broken is told with the place that nam
     CHECK_THAT(outcome.err, Contains("cup.stl"));
 }
 
-TEST_CASE("a mistake in --set is told with what was given", "[app][input]")
+TEST_CASE("a mistake in --set is reported with what was given", "[app][input]")
 {
     const Workplace place;
     const std::string option = GENERATE(as<std::string>{}, "time.duraton=1", "time.duration=-1", "time.duration=soon",
@@ -99,7 +99,7 @@ TEST_CASE("a mistake in --set is told with what was given", "[app][input]")
     CHECK_THAT(outcome.err, Contains(option));
 }
 
-TEST_CASE("of two walls with one name both places are told", "[app][input]")
+TEST_CASE("of two walls with one name both places are reported", "[app][input]")
 {
     const Workplace place;
     const std::string scene = beads_in_a_box + "[[wall]]\nname =   \"tray\"\nmaterial = \"glass\"\nshape = \"plane\"\n";

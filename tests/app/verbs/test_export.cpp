@@ -77,7 +77,7 @@ TEST_CASE("wrong exports end with 2 and one sentence", "[app][export]")
     CHECK(line_of(outcome.err + "|", "|") == 2);
 }
 
-TEST_CASE("a frame that is damaged is told by its name", "[app][export]")
+TEST_CASE("a frame that is damaged is reported by its name", "[app][export]")
 {
     const Workplace place;
     REQUIRE(place.run(beads_in_a_box).exit_code == 0);

@@ -80,7 +80,7 @@ Outcome while_it_runs(const Workplace& place, const std::string& commands, const
 
 } // namespace
 
-TEST_CASE("a folder has one owner; who comes second is told who that is, and changes nothing", "[app][output]")
+TEST_CASE("a folder has one owner; who comes second reads who that is, and changes nothing", "[app][output]")
 {
     const Workplace place;
     place.write("scene.toml", replaced(beads_in_a_box, "duration = 0.05", "duration = 1e4"));

@@ -163,7 +163,7 @@ TEST_CASE("a wall that is taken away gives a new wall frame", "[app][run]")
     CHECK(times[1] == Approx(0.03).margin(1e-3));
 }
 
-TEST_CASE("a wall that appears inside spheres is told, and the run goes on", "[app][run]")
+TEST_CASE("a wall that appears inside spheres is reported, and the run goes on", "[app][run]")
 {
     const Workplace place;
     const Outcome outcome = place.run(beads_in_a_box + R"([[wall]]

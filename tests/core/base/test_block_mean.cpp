@@ -67,7 +67,7 @@ TEST_CASE("the error is that of the mean, for samples that remember as for those
 
 TEST_CASE("samples that remember longer than blocks can be are said to be too few", "[block_mean]")
 {
-    // 400 samples, of which 400 are worth an independent one, or 2000: what error is told is too small.
+    // 400 samples, of which 400 are worth an independent one, or 2000: what error is reported is too small.
     const double a = GENERATE(0.995, 0.999);
     Random random(1);
     int told = 0;

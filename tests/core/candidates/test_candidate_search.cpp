@@ -76,7 +76,7 @@ std::size_t check_pairs(const World& world)
     std::size_t within = 0;
     for (std::size_t i = 0; i < state.count(); ++i)
         for (std::size_t j = i + 1; j < state.count(); ++j) {
-            const double gap = (state.position[i] - state.position[j]).norm() - state.radius(i) - state.radius(j);
+            const double gap = (state.position[i] - state.position[j]).norm() - state.radius[i] - state.radius[j];
             if (gap > reach) continue;
             ++within;
             if (!listed.count({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)}))
@@ -99,7 +99,7 @@ std::size_t check_walls(const World& world)
         for (std::size_t w = 0; w < world.model.walls.size(); ++w) {
             const auto& shape = world.model.walls[w].shape;
             for (std::size_t patch = 0; patch < patch_count(shape); ++patch) {
-                const double gap = nearest_point(shape, patch, state.position[i]).distance - state.radius(i);
+                const double gap = nearest_point(shape, patch, state.position[i]).distance - state.radius[i];
                 if (gap > reach) continue;
                 ++within;
                 if (!listed.count(
@@ -269,7 +269,7 @@ TEST_CASE(
     for (Tile& tile : world.network.list.tiles.tiles)
         for (std::size_t slot = 0; slot < tile.pairs.size(); ++slot)
             tile.carried.contact[slot].impulse.x() = tile.pairs[slot].a + 1000.0 * tile.pairs[slot].b;
-    Vec3& velocity = world.state.motion[fast].velocity;
+    Vec3& velocity = world.state.body(fast).velocity;
     velocity.x() = per_step * diameter / time_step;
     std::size_t within = 0;
     for (int step = 0; step < 40; ++step) {

@@ -76,7 +76,7 @@ std::size_t check_pairs(const World& world)
             double gap = infinity;
             for (const Vec3& shift : shifts)
                 gap = std::min(
-                    gap, (state.position[i] - state.position[j] + shift).norm() - state.radius(i) - state.radius(j));
+                    gap, (state.position[i] - state.position[j] + shift).norm() - state.radius[i] - state.radius[j]);
             if (gap > reach_of(world)) continue;
             ++within;
             if (!listed.count({i, j}))
@@ -103,7 +103,7 @@ std::size_t check_walls(const World& world)
         for (std::int32_t w = 0; w < static_cast<std::int32_t>(walls.size()); ++w)
             for (std::size_t patch = 0; patch < walls[w].patch_count(); ++patch) {
                 const auto at = walls[w].nearest_point(patch, x);
-                const double gap = at.distance - state.radius(i);
+                const double gap = at.distance - state.radius[i];
                 const double approach = std::max(0.0, at.normal.dot(walls[w].velocity(patch, at.point)));
                 if (gap > reach_of(world) + world.model.time_step * approach) continue;
                 ++within;
@@ -123,7 +123,8 @@ void run_checked(World& world, int steps)
         pairs += check_pairs(world);
         patches += check_walls(world);
         world.step();
-        // Walls that fast may press beads for which rigid contacts have no solution; that is told, and no harm here.
+        // Walls that fast may press beads for which rigid contacts have no solution; that is reported, and no harm
+        // here.
         for (const Incident& incident : world.report.bodies.incidents)
             REQUIRE(incident.kind == Incident::Kind::pressed);
     }
@@ -150,7 +151,7 @@ TEST_CASE("every sphere and wall within reach is listed while walls move, across
 TEST_CASE("beads that fly across a periodic border for many cells stay listed", "[candidate_search][periodicity]")
 {
     auto world = stirred_beads(0.5, 0.2, cells[2]);
-    for (auto& m : world.state.motion) m.velocity += Vec3(4.0, -3.0, 0);
+    for (auto& m : world.state.bodies) m.velocity += Vec3(4.0, -3.0, 0);
     run_checked(world, 160);
     for (const Vec3& x : world.state.position) {
         CHECK(x.x() >= 0.0);

@@ -28,7 +28,7 @@ struct FallingSphere {
 
 } // namespace
 
-TEST_CASE("an impact carries no impulse into the next step, and is no load", "[contact_assembly]")
+TEST_CASE("an impact carries no impulse into the next step, and is no load", "[assembly]")
 {
     FallingSphere s(0.5, 1e-5, 1.0);
     advance(s.state, s.network, s.model);
@@ -38,7 +38,7 @@ TEST_CASE("an impact carries no impulse into the next step, and is no load", "[c
     CHECK_FALSE(s.network.carried.walls.contact[0].touch.is_loaded());
 }
 
-TEST_CASE("a resting contact carries its whole impulse", "[contact_assembly]")
+TEST_CASE("a resting contact carries its whole impulse", "[assembly]")
 {
     FallingSphere s(0.0, 0.0, 0.0);
     for (int k = 0; k < 200; ++k) advance(s.state, s.network, s.model);
@@ -48,12 +48,12 @@ TEST_CASE("a resting contact carries its whole impulse", "[contact_assembly]")
     CHECK(s.state.last_wall[0] == 0);
 }
 
-TEST_CASE("a wall is a contact only while it stands", "[contact_assembly]")
+TEST_CASE("a wall is a contact only while it stands", "[assembly]")
 {
     FallingSphere s(0.0, 0.0, 0.0);
     s.model.walls[0].remove_at = 0.01;
     while (s.state.time < 0.0095) CHECK(advance(s.state, s.network, s.model).contacts.count == 1);
     for (int k = 0; k < 10; ++k) advance(s.state, s.network, s.model);
     CHECK(advance(s.state, s.network, s.model).contacts.count == 0);
-    CHECK(s.state.motion[0].velocity.z() < 0.0);
+    CHECK(s.state.body(0).velocity.z() < 0.0);
 }

@@ -77,15 +77,15 @@ struct WarmStep {
         : world(std::move(w)), begun(prepare_step(world.state, world.network, world.model, {world.model.time_step})),
           pistons(world.network, world.state, world.model, world.model.time_step)
     {
-        for (Motion& m : world.state.motion) m.velocity += world.model.time_step * world.model.gravity;
-        warm_size = apply_warm_start(world.network, pistons, world.state.motion, world.model.physics);
+        for (Body& m : world.state.bodies) m.velocity += world.model.time_step * world.model.gravity;
+        warm_size = apply_warm_start(world.network, pistons, world.state.bodies, world.model.physics);
     }
 
     /// Whatever is at rest gets a share of its load taken away, so that there is something to mend.
     void push_top(double speed)
     {
         for (std::size_t i = 0; i < world.state.count(); ++i)
-            if (world.state.position[i].z() > 0.7 * edge) world.state.motion[i].velocity.z() -= speed;
+            if (world.state.position[i].z() > 0.7 * edge) world.state.body(i).velocity.z() -= speed;
     }
 
     ScalingReport scale() { return scale_pressure(world.network, pistons, world.state, world.model); }
@@ -127,7 +127,7 @@ double energy_between(const State& before, const State& after)
 {
     double sum = 0.0;
     for (std::size_t i = 0; i < before.count(); ++i) {
-        const Motion &m = before.motion[i], &n = after.motion[i];
+        const Body &m = before.body(i), &n = after.body(i);
         sum += 0.5 * before.mass(i) *
                ((n.velocity - m.velocity).squaredNorm() +
                    (n.rim_velocity - m.rim_velocity).squaredNorm() / inverse_inertia_factor);
@@ -161,7 +161,7 @@ TEST_CASE("the coarse system has the curvature of the energy", "[pressure_scalin
         power += load.power;
     }
     for (std::size_t i = 0; i < push.size(); ++i)
-        expected += 0.5 * step.world.state.motion[i].inverse_mass *
+        expected += 0.5 * step.world.state.body(i).inverse_mass *
                     (push[i].squaredNorm() + inverse_inertia_factor * turn[i].squaredNorm());
     for (std::size_t p = 0; p < on_piston.size(); ++p)
         expected += 0.5 / step.world.model.pistons[p].mass * on_piston[p] * on_piston[p];
@@ -233,7 +233,7 @@ TEST_CASE("a correction takes energy out and ends where it is least", "[pressure
         double sum = energy_between(
             [&] {
                 State rest = step.world.state;
-                for (Motion& m : rest.motion) m.velocity = m.rim_velocity = Vec3::Zero();
+                for (Body& m : rest.bodies) m.velocity = m.rim_velocity = Vec3::Zero();
                 return rest;
             }(),
             step.world.state);
@@ -259,7 +259,7 @@ TEST_CASE("a solution is left as it is", "[pressure_scaling]")
     solver.tolerance = 1e-9;
     solver.max_sweeps = 100000;
     const auto solve = solve_contacts(
-        step.world.network, step.pistons, step.world.state.motion, step.world.model.physics, solver, step.warm_size);
+        step.world.network, step.pistons, step.world.state.bodies, step.world.model.physics, solver, step.warm_size);
     REQUIRE(solve.residual < 1e-6);
     step.pistons.store(step.world.network, step.world.state);
     double largest = 0.0;

@@ -115,7 +115,7 @@ TEST_CASE("spheres touch when the distance of their free paths is that of their 
     CHECK((across + 0.5 * closes * velocity).norm() > 2.0); // for the first time
 }
 
-TEST_CASE("an impact is fast, closes in this step, and has no load to count", "[law][stabilisation]")
+TEST_CASE("an impact is fast, closes in this step, and has no load to count", "[law]")
 {
     CHECK(impact(-1e-5, -1.0, nowhere));
     CHECK(impact(-1e-5, -1.0, nowhere, 0.0, 0.0)); // without restitution too: it stops
@@ -138,7 +138,7 @@ TEST_CASE("an impact is fast, closes in this step, and has no load to count", "[
 }
 
 TEST_CASE(
-    "what has been an impact and would not rebound again rests, unless it has come apart since", "[law][stabilisation]")
+    "what has been an impact and would not rebound again rests, unless it has come apart since", "[law]")
 {
     const auto again = [](double gap) {
         ContactEvent<double> at = event(gap, -2.0 * threshold); // it would rebound with 0.8 of the slowest impact
@@ -151,7 +151,7 @@ TEST_CASE(
     CHECK(again(1e-5));
 }
 
-TEST_CASE("an impact rebounds with e, however deep it is, and leaves no spring", "[law][stabilisation]")
+TEST_CASE("an impact rebounds with e, however deep it is, and leaves no spring", "[law]")
 {
     for (const LawOfStep& step : {matched(), rigid()})
         for (const double gap : {1e-4, 0.0, -1e-5, -0.1 * d}) {
@@ -163,7 +163,7 @@ TEST_CASE("an impact rebounds with e, however deep it is, and leaves no spring",
         }
 }
 
-TEST_CASE("an open gap may close in one step, and takes no energy in", "[law][stabilisation]")
+TEST_CASE("an open gap may close in one step, and takes no energy in", "[law]")
 {
     for (const LawOfStep& step : {matched(), rigid()}) {
         const auto law = law_of(event(1e-4, -1.0), step);
@@ -177,7 +177,7 @@ TEST_CASE("an open gap may close in one step, and takes no energy in", "[law][st
 }
 
 TEST_CASE("a spring asks for 4Υ κ/h, whatever its velocity is, and is as soft as sweeps or the material ask",
-    "[law][stabilisation]")
+    "[law]")
 {
     for (const double u_n : {-0.09, 0.0, 0.2}) {
         const auto law = law_of(event(-1e-5, u_n, 0.1, 1e-5), matched());
@@ -198,7 +198,7 @@ TEST_CASE("a spring asks for 4Υ κ/h, whatever its velocity is, and is as soft 
 }
 
 TEST_CASE("of an overlap, compression is what a load has pressed and what is pushed out since",
-    "[law][stabilisation][compression]")
+    "[law][spring]")
 {
     const double gained = 0.05 * h;
     const auto compression = [&](double gap, double before) {
@@ -212,7 +212,7 @@ TEST_CASE("of an overlap, compression is what a load has pressed and what is pus
     CHECK(law_of(event(-1e-5, -0.01, 0.1, 1e-5), rigid()).compression == -infinity);
 }
 
-TEST_CASE("an overlap without a spring becomes one only where it does not part", "[law][stabilisation][compression]")
+TEST_CASE("an overlap without a spring becomes one only where it does not part", "[law][spring]")
 {
     CHECK(law_of(event(-1e-5, -0.01), matched()).compression == 1e-5);
     CHECK(law_of(event(-1e-5, 0.0), matched()).compression == 1e-5);
@@ -220,7 +220,7 @@ TEST_CASE("an overlap without a spring becomes one only where it does not part",
     CHECK(law_of(event(-1e-5, 0.01, 0.1, 1e-5), matched()).compression == 1e-5); // it is one
 }
 
-TEST_CASE("a rigid contact stops what comes, and does not hold what leaves", "[law][stabilisation]")
+TEST_CASE("a rigid contact stops what comes, and does not hold what leaves", "[law]")
 {
     CHECK(most_asked(event(-1e-5, -0.09, 0.0, 1e-5), rigid()) == 0.0);
     CHECK(law_of(event(-1e-5, -0.09, 0.0, 1e-5), rigid()).parting == 0.0);
@@ -233,7 +233,7 @@ TEST_CASE("a rigid contact stops what comes, and does not hold what leaves", "[l
 }
 
 TEST_CASE("a rigid contact is so where it is shallow, and bears what its overlap would as a spring",
-    "[law][stabilisation][press]")
+    "[law][press]")
 {
     CHECK(law_of(event(-0.01 * d, -0.1), rigid()).target == Approx(4.0 / 9.0 * 0.01 * d / h));
     CHECK(law_of(event(-0.01 * d, -0.1), rigid()).parting == 0.0);
@@ -246,7 +246,7 @@ TEST_CASE("a rigid contact is so where it is shallow, and bears what its overlap
 }
 
 TEST_CASE("against a wall that gets faster a contact is passive as its sphere was, and an impact as it is",
-    "[law][stabilisation][walls]")
+    "[law][walls]")
 {
     // The wall gains 0.1 m/s towards a sphere that has gone with it: that is no velocity which it may give back.
     const auto of = [](double gap, double u_n_before, const LawOfStep& step, bool is_impact = false) {
@@ -281,7 +281,7 @@ double yields_at(double u_n, double reduced_radius = 0.25 * d)
 } // namespace
 
 TEST_CASE("a deep contact yields: it bears as a spring that all of its overlap has pressed, and parts slowly",
-    "[law][stabilisation][press]")
+    "[law][press]")
 {
     LawOfStep step = matched();
     for (const double u_n : {-1.0, 0.0, 1.0}) CHECK(yields_at(u_n) == Approx(yield_overlap));
@@ -318,7 +318,7 @@ TEST_CASE("a deep contact yields: it bears as a spring that all of its overlap h
     CHECK(of_rigid.parting == 0.0);
 }
 
-TEST_CASE("springs of a split step bear at rest what those of the whole step would", "[law][stabilisation][sub_steps]")
+TEST_CASE("springs of a split step bear at rest what those of the whole step would", "[law][sub_steps]")
 {
     // Force λ/h of a contact at rest, u_n⁺ = 0.
     const auto force = [](double stiffness, double parts) {
@@ -433,7 +433,7 @@ TEST_CASE("a rigid row without a load, and an open one, put no energy in", "[law
 }
 
 TEST_CASE("a spring gives back what it was pressed, and what e leaves of it where it is fast",
-    "[law][stabilisation][compression]")
+    "[law][spring]")
 {
     const auto after = [](double kappa, double u_n, double restitution) {
         return compression_after<double>(kappa, -kappa, u_n, restitution, matched());
@@ -450,7 +450,7 @@ TEST_CASE("a spring gives back what it was pressed, and what e leaves of it wher
     CHECK(after(-infinity, -0.1, 1.0) == -infinity);
 }
 
-TEST_CASE("a spring that a load has left holds no more than it did, and κ goes with its gap", "[law][compression]")
+TEST_CASE("a spring that a load has left holds no more than it did, and κ goes with its gap", "[law][spring]")
 {
     const LawOfStep step = matched();
     const auto holds = [&](double kappa, double u_n) { return spring_square<double>(kappa, u_n, sigma, w, step); };
@@ -472,7 +472,7 @@ TEST_CASE("a spring that a load has left holds no more than it did, and κ goes 
     CHECK(opened(elastic + 0.01, 0.5) == Approx(1e-4 - h * (elastic + 4 * 0.01)));
 }
 
-TEST_CASE("what a spring hands on is its energy, and the same κ where its normal does not turn", "[law][compression]")
+TEST_CASE("what a spring hands on is its energy, and the same κ where its normal does not turn", "[law][spring]")
 {
     LawOfStep step = matched();
     step.parts = GENERATE(1.0, 4.0);
@@ -503,7 +503,7 @@ TEST_CASE("what a spring hands on is its energy, and the same κ where its norma
     CHECK(takes_over(hands_on(after, -5.0), -5.0) == Approx(1e-6 + h * 5.0));
 }
 
-TEST_CASE("beside an impact a contact without a load closes to 0.4 smallest diameters at most", "[law][impacts]")
+TEST_CASE("beside an impact a contact without a load closes to 0.4 smallest diameters at most", "[law][impact]")
 {
     const LawOfStep step = matched();
     for (const double gap : {1e-4, -1e-4, -0.1 * d}) {
@@ -516,14 +516,14 @@ TEST_CASE("beside an impact a contact without a load closes to 0.4 smallest diam
     CHECK(target_beside(0.0, -0.5 * d, -5.0, step) == Approx(0.1 * d / h));
 }
 
-TEST_CASE("beside an impact a contact with a load is rigid, and takes no energy in", "[law][impacts]")
+TEST_CASE("beside an impact a contact with a load is rigid, and takes no energy in", "[law][impact]")
 {
     CHECK(target_beside(0.01, -1e-4, -0.3, matched()) == 0.0);
     CHECK(target_beside(0.01, 1e-4, -0.3, matched()) == Approx(-0.1)); // to where it touches
     for (const double gap : {1e-4, -1e-4}) CHECK(target_beside(0.01, gap, 0.3, matched()) == -0.3);
 }
 
-TEST_CASE("a spring that bears an impact comes to hold no more than it did", "[law][impacts][energy]")
+TEST_CASE("a spring that bears an impact comes to hold no more than it did", "[law][impact][energy]")
 {
     CHECK(borne_compression<double>(1e-4, 0.05, matched()) == 1e-4);
     CHECK(borne_compression<double>(1e-4, -0.05, matched()) == Approx(1e-4 - 0.5 * h * 0.05));

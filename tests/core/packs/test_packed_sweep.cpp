@@ -61,24 +61,24 @@ Result swept_by(const Kernels& kernels, World world)
 {
     const std::size_t variant = with_rows(world.model.physics, [](auto rows) { return decltype(rows)::index; });
     const SweepKernel& kernel = kernels.sweep[variant];
-    auto* motion = reinterpret_cast<double*>(world.state.motion.data());
+    auto* bodies = reinterpret_cast<double*>(world.state.bodies.data());
     auto& contacts = world.network.contacts;
     Result result;
     const auto pass = [&](auto&& of_tile) {
         for (std::size_t tile = 0; tile < contacts.spheres.size(); ++tile)
             result.add(of_tile(contacts.spheres[tile].span(), contacts.walls[tile].span()));
     };
-    pass([&](const PackSpan& spheres, const PackSpan& walls) { return kernel.warm_start(spheres, walls, motion); });
+    pass([&](const PackSpan& spheres, const PackSpan& walls) { return kernel.warm_start(spheres, walls, bodies); });
     for (const double relaxation : {1.0, 1.3, 1.0})
         pass([&](const PackSpan& spheres, const PackSpan& walls) {
-            return kernel.relax(spheres, walls, motion, relaxation);
+            return kernel.relax(spheres, walls, bodies, relaxation);
         });
-    pass([&](const PackSpan& spheres, const PackSpan& walls) { return kernel.measure(spheres, walls, motion); });
+    pass([&](const PackSpan& spheres, const PackSpan& walls) { return kernel.measure(spheres, walls, bodies); });
     for_each_contact(world.network, [&](const TileContacts& tile, std::size_t k, bool) {
         result.add(tile.impulse(k));
         if (tile.has_rolling()) result.add(tile.rolling_impulse(k));
     });
-    for (const Motion& m : world.state.motion) {
+    for (const Body& m : world.state.bodies) {
         result.add(m.velocity);
         result.add(m.rim_velocity);
     }
@@ -158,10 +158,10 @@ TEST_CASE("a contact asks for its parting speed at most, and friction is within 
     TileContacts contacts;
     contacts.clear(false, false);
     contacts.append_pack();
-    std::vector<Motion> motion(2 * pack_size, Motion{.inverse_mass = w / 2, .radius = standard_radius});
+    std::vector<Body> bodies(2 * pack_size, Body{.inverse_mass = w / 2, .spin_radius = standard_radius});
     for (int k = 0; k < pack_size; ++k) {
-        motion[2 * k].velocity = Vec3(0.5, 0, -0.5);
-        motion[2 * k + 1].velocity = -motion[2 * k].velocity;
+        bodies[2 * k].velocity = Vec3(0.5, 0, -0.5);
+        bodies[2 * k + 1].velocity = -bodies[2 * k].velocity;
         set_contact(contacts, static_cast<std::size_t>(k),
             {.a = 2 * k,
                 .b = 2 * k + 1,
@@ -170,19 +170,19 @@ TEST_CASE("a contact asks for its parting speed at most, and friction is within 
                 .friction = friction,
                 .inverse_mass_sum = w});
     }
-    const std::vector<Motion> before = motion;
+    const std::vector<Body> before = bodies;
     for (const Kernels* kernels : usable_kernels()) {
         CAPTURE(kernels->instructions);
         TileContacts swept = contacts, none;
-        motion = before;
+        bodies = before;
         none.clear(false, false);
         constexpr std::size_t variant = Rows<true, true, false, false>::index;
-        kernels->sweep[variant].relax(swept.span(), none.span(), reinterpret_cast<double*>(motion.data()), 1.0);
+        kernels->sweep[variant].relax(swept.span(), none.span(), reinterpret_cast<double*>(bodies.data()), 1.0);
         for (std::size_t k = 0; k < pack_size; ++k) {
             const double normal = (1.0 + std::max(-1.0, k == lane ? std::min(parting, 1.0) : 1.0)) / w;
             const double tangent = std::min(friction * normal, 1.0 / (3.5 * w));
             CHECK((swept.impulse(k) - Vec3(-tangent, 0, normal)).norm() < 1e-15);
-            CHECK((motion[2 * k].velocity - before[2 * k].velocity - w / 2 * swept.impulse(k)).norm() < 1e-15);
+            CHECK((bodies[2 * k].velocity - before[2 * k].velocity - w / 2 * swept.impulse(k)).norm() < 1e-15);
         }
     }
 }

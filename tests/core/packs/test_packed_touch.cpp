@@ -21,8 +21,8 @@ constexpr int spheres = 2 * pack_size;
 /// Eight touches of sixteen spheres, and what they need: gaps from −0.1 to 0.1 radii, motions at random, the last two
 /// spheres in one place. Every sphere is of a material of its own.
 struct Touches {
-    std::vector<ReachBall> balls;
-    std::vector<Motion> motion;
+    std::vector<SpherePlace> places;
+    std::vector<double> reaches;
     std::vector<std::int32_t> material;
     std::vector<ContactLaw> laws = std::vector<ContactLaw>(spheres * spheres);
     std::vector<CarriedContact> carried = std::vector<CarriedContact>(pack_size);
@@ -45,15 +45,15 @@ struct Touches {
             .min_diameter = 2 * radius};
         step.reach = 0.02 * radius;
         step.horizon = 1.5e-3;
-        step.inverse_inertia = 2.5;
+        step.inverse_inertia_factor = 2.5;
         std::fill_n(step.cell_length, 3, infinity);
         for (int lane = 0; lane < pack_size; ++lane) {
             const Vec3 place(number(-1, 1), number(-1, 1), number(-1, 1));
             const Vec3 way = Vec3(number(-1, 1), number(-1, 1), number(-1, 1)).normalized();
             add(place);
             add(lane + 1 < pack_size ? Vec3(place + number(1.9, 2.1) * radius * way) : place);
-            for (std::size_t s : {motion.size() - 2, motion.size() - 1})
-                motion[s].velocity = Vec3(number(-1, 1), number(-1, 1), number(-1, 1));
+            for (std::size_t s : {places.size() - 2, places.size() - 1})
+                for (double& component : places[s].velocity) component = number(-1, 1);
             contact.a[lane] = 2 * lane;
             contact.b[lane] = 2 * lane + 1;
             record.slot[lane] = static_cast<std::uint32_t>(pack_size - 1 - lane);
@@ -79,9 +79,10 @@ struct Touches {
 
     void add(const Vec3& x)
     {
-        material.push_back(static_cast<std::int32_t>(motion.size()));
-        balls.push_back({{x.x(), x.y(), x.z()}, 1.01 * radius});
-        motion.push_back({.inverse_mass = 1000.0 + 100.0 * static_cast<double>(motion.size()), .radius = radius});
+        material.push_back(static_cast<std::int32_t>(places.size()));
+        reaches.push_back(1.01 * radius);
+        places.push_back(
+            {{x.x(), x.y(), x.z()}, radius, {0, 0, 0}, 1000.0 + 100.0 * static_cast<double>(places.size())});
     }
 
     const ContactLaw& law(int lane) const { return laws[static_cast<std::size_t>(2 * lane * spheres + 2 * lane + 1)]; }
@@ -94,12 +95,12 @@ struct Touches {
     }
     Vec3 normal(int lane) const { return vector(contact.normal, lane); }
     Vec3 impulse(int lane) const { return vector(contact.impulse, lane); }
-    Vec3 across(int lane) const
+    static Vec3 difference(const double (&x)[3], const double (&y)[3])
     {
-        const double *x = balls[2 * lane].center, *y = balls[2 * lane + 1].center;
         return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
     }
-    Vec3 velocity(int lane) const { return motion[2 * lane].velocity - motion[2 * lane + 1].velocity; }
+    Vec3 across(int lane) const { return difference(places[2 * lane].center, places[2 * lane + 1].center); }
+    Vec3 velocity(int lane) const { return difference(places[2 * lane].velocity, places[2 * lane + 1].velocity); }
 
     /// As if solved: each contact has an impulse at random, in its cone or not.
     void solve(std::uint64_t seed)
@@ -116,8 +117,8 @@ struct Touches {
 
     SphereNumbers numbers() const
     {
-        return {balls.data(), reinterpret_cast<const double*>(motion.data()), material.data(), spheres,
-            reinterpret_cast<const double*>(laws.data()), reinterpret_cast<const double*>(carried.data())};
+        return {places.data(), reaches.data(), material.data(), spheres, reinterpret_cast<const double*>(laws.data()),
+            reinterpret_cast<const double*>(carried.data())};
     }
 
     void touch(const Kernels& kernels)
@@ -243,7 +244,7 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
         }
         const Vec3 across = all.across(lane), velocity = all.velocity(lane), normal = all.normal(lane);
         const double gap = all.record.gap[lane];
-        const double w = all.motion[2 * lane].inverse_mass + all.motion[2 * lane + 1].inverse_mass;
+        const double w = all.places[2 * lane].inverse_mass + all.places[2 * lane + 1].inverse_mass;
         const ContactLaw& pair = all.law(lane);
         const CarriedContact& own = all.carried_of(lane);
         const double carried_along = std::max(0.0, own.impulse.dot(normal));
@@ -296,7 +297,7 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
         const double held = had ? energy(kappa - law.grown, u_n) : 0.0;
         const double holds = keeps ? energy(kappa, had ? u_n : 0.0) : 0.0;
         const double square_before = had ? spring_square<double>(kappa - law.grown, u_n, spring, w, step) : 0.0;
-        CHECK(all.record.held[lane] == Approx(static_cast<float>(square_before)).margin(0.0));
+        CHECK(all.record.stored[lane] == Approx(static_cast<float>(square_before)).margin(0.0));
         CHECK(all.sums.stored_energy[lane] == Approx(holds).margin(1e-18));
         CHECK(all.sums.push_out_energy[lane] == Approx(holds - held).margin(1e-12 * std::abs(holds)));
     }
@@ -371,10 +372,10 @@ TEST_CASE("contacts hand on their impulses and what their springs keep, impacts 
         const double kappa = compression_after<double>(
             solved.record.compression[lane], solved.record.gap[lane], u_n, solved.record.restitution[lane], step);
         const double spring = solved.record.spring[lane], w = solved.record.inverse_mass_sum[lane];
-        const double square = handed_on<double>(kappa, solved.record.held[lane], u_n, along, spring, w, step);
+        const double square = handed_on<double>(kappa, solved.record.stored[lane], u_n, along, spring, w, step);
         CHECK(own.compression == Approx(static_cast<float>(std::sqrt(square))));
         CHECK((own.compression > 0.0F) ==
-              (is_loaded ? kappa > touching_gap * step.min_diameter : solved.record.held[lane] > 0.0F));
+              (is_loaded ? kappa > touching_gap * step.min_diameter : solved.record.stored[lane] > 0.0F));
         stored += energy_of_square<double>(square, spring, w, step);
         pushed += static_cast<double>(solved.record.push[lane]) * along;
     }
@@ -389,7 +390,7 @@ TEST_CASE("a touch across the border of a cell is that of the nearest image", "[
     Touches direct(7), across = direct;
     across.step.is_periodic = true;
     across.step.cell_length[1] = 2.5;
-    for (std::size_t s = 1; s < across.balls.size(); s += 2) across.balls[s].center[1] += s % 4 == 1 ? 2.5 : -2.5;
+    for (std::size_t s = 1; s < across.places.size(); s += 2) across.places[s].center[1] += s % 4 == 1 ? 2.5 : -2.5;
     for (Touches* touches : {&direct, &across}) touches->touch(fastest_kernels());
     for (int lane = 0; lane + 1 < pack_size; ++lane) {
         CHECK(across.record.gap[lane] == Approx(direct.record.gap[lane]).margin(1e-15));

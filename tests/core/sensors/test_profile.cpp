@@ -127,7 +127,7 @@ TEST_CASE("the temperature in a bin is about the mean over time", "[profile]")
     State state = lattice(0, 1, [](const Vec3&) { return Vec3::Zero(); });
     Profile profile("p", RegionBins(box(Vec3::Constant(-0.1), Vec3::Constant(0.1)), RegionBins::Direction::x, 1), {});
     for (int k = 0; k < 10; ++k) {
-        state.motion[0].velocity.y() = k % 2 == 0 ? 0.6 : -0.6;
+        state.body(0).velocity.y() = k % 2 == 0 ? 0.6 : -0.6;
         sample(profile, state, Model{});
     }
     CHECK(column(profile, "granular_temperature")[0] == Approx(0.36 / 3.0));
@@ -156,7 +156,7 @@ TEST_CASE("a profile that was stored goes on as if nothing had been", "[profile]
     Profile whole("a", bins, {}), first("a", bins, {}), second("a", bins, {});
     for (int k = 0; k < 50; ++k) {
         state.time = k;
-        for (Motion& m : state.motion) m.velocity.z() = std::sin(k);
+        for (Body& m : state.bodies) m.velocity.z() = std::sin(k);
         sample(whole, state, Model{});
         sample(k < 21 ? first : second, state, Model{});
         if (k != 20) continue;

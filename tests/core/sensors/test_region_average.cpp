@@ -166,7 +166,7 @@ TEST_CASE("only samples in the window count, and the error is that of their mean
     for (int k = 0; k <= 300; ++k) {
         state.time = 0.01 * k;
         const bool steady = state.time >= 1.0 && state.time <= 2.0;
-        state.motion[0].velocity.x() = steady ? (k % 2 == 0 ? 1.0 : 3.0) : 100.0;
+        state.body(0).velocity.x() = steady ? (k % 2 == 0 ? 1.0 : 3.0) : 100.0;
         sample(sensor, state, model);
     }
     const auto velocity = sensor.results()[3];
@@ -232,7 +232,7 @@ TEST_CASE("the branch of a contact is as long as the centres are apart, however 
     world.step();
     const auto forces = world.contact_forces();
     REQUIRE(forces.size() == 1);
-    const double flux = 2.0 * world.mass() * std::pow(world.state.motion[0].velocity.x(), 2);
+    const double flux = 2.0 * world.mass() * std::pow(world.state.body(0).velocity.x(), 2);
     const double edge = 6.0 * d;
     const auto there = measure(world, box(Vec3::Constant(-0.5 * edge), Vec3::Constant(0.5 * edge)));
     CHECK(there.at("stress_xx") * edge * edge * edge == Approx(forces[0].normal_force * distance + flux).epsilon(1e-9));

@@ -160,7 +160,7 @@ TEST_CASE("what is no heap has no angle, and says why", "[repose]")
     Heap falling(cone(25.0, 0.1));
     CHECK(judge(falling).first == Approx(25.0).margin(0.3));
     const auto moved = falling.state.count() / 10;
-    for (std::size_t i = 0; i < moved; ++i) falling.state.motion[i].velocity.z() = -0.2;
+    for (std::size_t i = 0; i < moved; ++i) falling.state.body(i).velocity.z() = -0.2;
     CHECK(std::isnan(judge(falling).first));
     CHECK(judge(falling).second == "no heap: 10 % of the mass falls or flows");
 
@@ -179,7 +179,7 @@ TEST_CASE("grains in the air are no part of the surface", "[repose]")
     const double still = heap.angle().value;
     for (int k = 0; k < 20; ++k) {
         add_sphere(heap.state, heap.base + Vec3(0, 0, 0.2 + 0.01 * k), 0.5 * diameter, 2500.0, 0);
-        heap.state.motion.back().velocity.z() = -1.0;
+        heap.state.bodies.back().velocity.z() = -1.0;
     }
     CHECK(heap.angle().value == still);
 }

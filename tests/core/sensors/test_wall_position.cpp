@@ -31,7 +31,7 @@ double value(const std::vector<Measurement>& all, const std::string& name)
 
 } // namespace
 
-TEST_CASE("the position of a plate is told along its guide, with its speed and the load", "[wall_position]")
+TEST_CASE("the position of a plate is reported along its guide, with its speed and the load", "[wall_position]")
 {
     World world = lifted_plate();
     WallPosition sensor("plate", 0, {});

@@ -25,7 +25,7 @@ void begin(World& world)
 {
     world.update_candidates();
     assemble_contacts(world.network, world.state, world.model, {world.model.time_step}, world.placed_walls());
-    for (Motion& motion : world.state.motion) motion.velocity += world.model.time_step * world.model.gravity;
+    for (Body& motion : world.state.bodies) motion.velocity += world.model.time_step * world.model.gravity;
 }
 
 /// Whether the next step begins with enough of all that there is to compare.
@@ -118,7 +118,7 @@ void lay_arms(DenseProblem& dense, const ContactNetwork& network, const State& s
     for_each_contact(network, [&](const TileContacts& contacts, std::size_t slot, bool with_wall) {
         const std::int32_t a = contacts.a(slot), b = contacts.b(slot);
         if (!with_wall) {
-            const double radii = state.radius(a) + state.radius(b);
+            const double radii = state.radius[a] + state.radius[b];
             const double longer =
                 contacts.contact(slot).arm_scale * radii / (state.position[a] - state.position[b]).norm();
             for (const std::int32_t sphere : {a, b}) dense.jacobian.block<3, 3>(row, 6 * sphere + 3) *= longer;
@@ -145,9 +145,9 @@ Difference compare(const ContactNetwork& network, const State& state, const Dens
     double fastest = 0.0;
     for (std::size_t i = 0; i < state.count(); ++i) {
         const auto own = dense.velocity.segment<6>(6 * static_cast<Eigen::Index>(i));
-        worst.velocity = std::max(worst.velocity, (state.motion[i].velocity - own.head<3>()).norm());
-        worst.spin = std::max(worst.spin, (state.motion[i].rim_velocity - state.radius(i) * own.tail<3>()).norm());
-        fastest = std::max({fastest, own.head<3>().norm(), state.radius(i) * own.tail<3>().norm()});
+        worst.velocity = std::max(worst.velocity, (state.body(i).velocity - own.head<3>()).norm());
+        worst.spin = std::max(worst.spin, (state.body(i).rim_velocity - state.radius[i] * own.tail<3>()).norm());
+        fastest = std::max({fastest, own.head<3>().norm(), state.radius[i] * own.tail<3>().norm()});
     }
     const double largest = dense.impulse.lpNorm<Eigen::Infinity>();
     worst.impulse /= largest;
@@ -161,9 +161,9 @@ Difference compare(const ContactNetwork& network, const State& state, const Dens
 SolveReport solve_begun(World& world, const SolverSettings& solver)
 {
     PistonGroup pistons(world.network, world.state, world.model, world.model.time_step);
-    const double warm_size = apply_warm_start(world.network, pistons, world.state.motion, world.model.physics);
+    const double warm_size = apply_warm_start(world.network, pistons, world.state.bodies, world.model.physics);
     const auto report =
-        solve_contacts(world.network, pistons, world.state.motion, world.model.physics, solver, warm_size);
+        solve_contacts(world.network, pistons, world.state.bodies, world.model.physics, solver, warm_size);
     pistons.store(world.network, world.state);
     return report;
 }
@@ -217,7 +217,7 @@ TEST_CASE("at moving walls, and without spin, the kernel gives those of Algorith
     {
         World world = collapsing_heap(contact_law(0.4, 0, 0.3), production_settings(stabilisation), {}, false);
         check_against_oracle(world, sweeps);
-        for (const Motion& m : world.state.motion) CHECK(m.rim_velocity == Vec3::Zero());
+        for (const Body& m : world.state.bodies) CHECK(m.rim_velocity == Vec3::Zero());
     }
     SECTION("walls that move, no spin")
     {
@@ -279,9 +279,9 @@ TEST_CASE("a relaxed solve has the velocities of an ordinary one, in fewer sweep
     CHECK(relaxed_sweeps < 0.7 * ordinary_sweeps);
     double worst = 0.0, fastest = 0.0;
     for (std::size_t i = 0; i < start.state.count(); ++i) {
-        const Vec3 v = ordinary.state.motion[i].velocity;
+        const Vec3 v = ordinary.state.body(i).velocity;
         fastest = std::max(fastest, v.norm());
-        worst = std::max(worst, (v - relaxed.state.motion[i].velocity).norm());
+        worst = std::max(worst, (v - relaxed.state.body(i).velocity).norm());
     }
     CHECK(worst < 1e-8 * fastest);
 }

@@ -37,11 +37,11 @@ TEST_CASE("a healthy step has no incident", "[diagnostics]")
     CHECK(ThreeSpheres().step().empty());
 }
 
-TEST_CASE("a velocity that is not a number is told in the step in which it shows", "[diagnostics]")
+TEST_CASE("a velocity that is not a number is reported in the step in which it shows", "[diagnostics]")
 {
     ThreeSpheres s;
     s.step();
-    s.state.motion[1].rim_velocity.x() = std::numeric_limits<double>::quiet_NaN();
+    s.state.body(1).rim_velocity.x() = std::numeric_limits<double>::quiet_NaN();
     const auto incidents = s.step();
     REQUIRE(incidents.size() == 1);
     CHECK(incidents[0].kind == Incident::Kind::not_a_number);
@@ -52,7 +52,7 @@ TEST_CASE("a sphere faster than the scene can make it is a blow-up", "[diagnosti
 {
     ThreeSpheres s;
     s.step();
-    s.state.motion[2].velocity.y() = 50.1;
+    s.state.body(2).velocity.y() = 50.1;
     const auto incidents = s.step();
     REQUIRE(incidents.size() == 1);
     CHECK(incidents[0].kind == Incident::Kind::blow_up);
@@ -63,7 +63,7 @@ TEST_CASE("a sphere faster than the scene can make it is a blow-up", "[diagnosti
 TEST_CASE("a sphere that leaves the world has escaped, unless it went through an outlet", "[diagnostics]")
 {
     ThreeSpheres s;
-    s.state.motion[0].velocity.z() = -20.0;
+    s.state.body(0).velocity.z() = -20.0;
     const bool with_outlet = GENERATE(false, true);
     if (with_outlet) {
         Region outlet;

@@ -57,7 +57,7 @@ TEST_CASE("a contact that yields is jammed once it comes deeper and deeper, unti
         }
     }
     CHECK(touch.is_newly_jammed());
-    for (int k = 0; k < 300; ++k) { // as long as it is deep, whatever it bears: it is told once
+    for (int k = 0; k < 300; ++k) { // as long as it is deep, whatever it bears: it is reported once
         touch.note_yield(k % 3 == 0, k % 2 == 0);
         CHECK(touch.is_jammed());
         CHECK_FALSE(touch.is_newly_jammed());
@@ -97,7 +97,7 @@ TEST_CASE("overlaps at the start, a shaken bed and a heavy plate are no presses"
     }
 }
 
-TEST_CASE("a wall that appears inside spheres is told once, with those that it cuts", "[walls][incidents]")
+TEST_CASE("a wall that appears inside spheres is reported once, with those that it cuts", "[walls][incidents]")
 {
     // Six spheres in a row along z, without gravity; a plate appears 0.3 d above the centre of the third, or between
     // two.

@@ -40,12 +40,12 @@ double worst_overlap(const World& world)
 TEST_CASE("overlap at the start is undone, and only positions change", "[relaxation]")
 {
     World world = thrown_about();
-    world.state.motion[3].velocity = Vec3(1, 2, 3);
+    world.state.body(3).velocity = Vec3(1, 2, 3);
     const double before = worst_overlap(world);
     REQUIRE(before > 0.3 * d);
     CHECK(relax_overlaps(world.state, world.model, before) > 10);
     CHECK(worst_overlap(world) < 2e-6 * d);
-    CHECK(world.state.motion[3].velocity == Vec3(1, 2, 3));
+    CHECK(world.state.body(3).velocity == Vec3(1, 2, 3));
     CHECK(world.state.steps == 0);
     CHECK(world.state.time == 0.0);
 }

@@ -96,7 +96,7 @@ TEST_CASE("a stack at rest does not notice steps that are split for a sphere far
     int most_sub_steps = 1;
     for (int round = 0; round < 40; ++round) {
         // now it flies, and now it does not
-        world.state.motion[world.index_of(fast)].velocity = Vec3(round % 2 ? 100.0 : 0.0, 0, 0);
+        world.state.body(world.index_of(fast)).velocity = Vec3(round % 2 ? 100.0 : 0.0, 0, 0);
         for (int k = 0; k < 50; ++k) {
             world.step();
             alone.step();
@@ -107,7 +107,7 @@ TEST_CASE("a stack at rest does not notice steps that are split for a sphere far
                 std::max(worst_force, std::abs(world.report.outcome.from_walls.impulse.z() / time_step / weight - 1));
             for (int i = 0; i < 10; ++i) {
                 farthest = std::max(farthest, (world.position(i) - alone.position(i)).norm());
-                liveliest = std::max(liveliest, kinetic_energy(world.state.motion[world.index_of(i)]));
+                liveliest = std::max(liveliest, world.state.body(world.index_of(i)).kinetic_energy());
             }
             for (const auto& contact : world.contact_forces())
                 if (contact.with_wall) worst_force = std::max(worst_force, std::abs(contact.normal_force / weight - 1));
@@ -210,14 +210,14 @@ TEST_CASE("a fast gas is the same bits after a restart, and with any number of t
     resumed.step(60);
     omp_set_num_threads(before);
     CHECK(same_bits(through.state.position, resumed.state.position));
-    CHECK(same_bits(through.state.motion, resumed.state.motion));
+    CHECK(same_bits(through.state.bodies, resumed.state.bodies));
 }
 
 TEST_CASE("a step that is taken back leaves no trace", "[sub_steps]")
 {
     // What contacts have pressed, between spheres and at the wall, is that of the step that was made.
     World world = stack(Stabilisation::matched);
-    world.state.motion[9].velocity.z() = -0.2;
+    world.state.body(9).velocity.z() = -0.2;
     world.step(20);
     World tried = world;
     for (const double length : {time_step, 0.1 * time_step, time_step})

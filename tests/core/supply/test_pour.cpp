@@ -40,8 +40,8 @@ struct Pouring {
         double gap = infinity;
         for (std::size_t i = 0; i < state.count(); ++i) {
             for (std::size_t j = 0; j < i; ++j)
-                gap = std::min(gap, (state.position[i] - state.position[j]).norm() - state.radius(i) - state.radius(j));
-            gap = std::min(gap, nearest_point(model.walls[0].shape, 0, state.position[i]).distance - state.radius(i));
+                gap = std::min(gap, (state.position[i] - state.position[j]).norm() - state.radius[i] - state.radius[j]);
+            gap = std::min(gap, nearest_point(model.walls[0].shape, 0, state.position[i]).distance - state.radius[i]);
         }
         return gap;
     }
@@ -58,8 +58,8 @@ TEST_CASE("poured spheres overlap nothing and lie in their region, until it is f
     CHECK(pouring.state.count() == static_cast<std::size_t>(pouring.source.poured) + 1);
     CHECK(pouring.least_gap() >= 0.0);
     for (std::size_t i = 1; i < pouring.state.count(); ++i) {
-        CHECK(pouring.source.region.contains(pouring.state.position[i], pouring.state.radius(i)));
-        CHECK(pouring.state.motion[i].velocity == pouring.source.velocity);
+        CHECK(pouring.source.region.contains(pouring.state.position[i], pouring.state.radius[i]));
+        CHECK(pouring.state.body(i).velocity == pouring.source.velocity);
     }
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("a sphere that finds no place waits, is counted, and comes when there 
     for (std::size_t i = 1; i < pouring.state.count(); ++i) pouring.state.position[i].z() -= 1.0;
     CHECK(pouring.pour_at(0.2) > 0);
     CHECK(pouring.source.poured > poured);
-    CHECK(pouring.state.radius(static_cast<std::size_t>(poured) + 1) == 0.5 * waiting); // the one that waited, first
+    CHECK(pouring.state.radius[static_cast<std::size_t>(poured) + 1] == 0.5 * waiting); // the one that waited, first
 }
 
 TEST_CASE("a pour lets in its rate from its start on, and no more than its count", "[pour]")
@@ -128,7 +128,7 @@ TEST_CASE("a pour by mass lets in its mass per second, and ends with the sphere 
     CHECK(source.refused == 0);
 
     double mass = 0.0;
-    for (std::size_t i = 1; i < pouring.state.count(); ++i) mass += 1.0 / pouring.state.motion[i].inverse_mass;
+    for (std::size_t i = 1; i < pouring.state.count(); ++i) mass += 1.0 / pouring.state.body(i).inverse_mass;
     CHECK(mass == Approx(source.poured_mass).epsilon(1e-12));
     CHECK(expected_count(source, pouring.model.materials) == Approx(static_cast<double>(source.poured)).margin(3.0));
 }
@@ -165,8 +165,8 @@ TEST_CASE("a pour of two species gives each sphere the mass of its material", "[
     for (std::size_t i = 1; i < pouring.state.count(); ++i) {
         const bool is_steel = pouring.state.material[i] == 1;
         const double radius = is_steel ? 0.002 : 0.004, density = is_steel ? 7800.0 : 2500.0;
-        CHECK(pouring.state.radius(i) == Approx(radius));
-        CHECK(1.0 / pouring.state.motion[i].inverse_mass ==
+        CHECK(pouring.state.radius[i] == Approx(radius));
+        CHECK(1.0 / pouring.state.body(i).inverse_mass ==
               Approx(density * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius));
         steel += is_steel;
     }

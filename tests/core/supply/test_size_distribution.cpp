@@ -49,7 +49,7 @@ double volume_of(double d)
 
 } // namespace
 
-TEST_CASE("the means of cut normal and lognormal diameters are those of their densities", "[sizes]")
+TEST_CASE("the means of cut normal and lognormal diameters are those of their densities", "[size_distribution]")
 {
     const auto diameter = [](double d) { return d; };
     CHECK(normal_sizes.mean() == Approx(quadrature_mean(0.004, 0.009, normal_density, diameter)).epsilon(1e-9));
@@ -59,7 +59,7 @@ TEST_CASE("the means of cut normal and lognormal diameters are those of their de
           Approx(quadrature_mean(0.001, 0.012, lognormal_density, volume_of)).epsilon(1e-9));
 }
 
-TEST_CASE("wide cuts leave the moments of the normal and the lognormal distribution", "[sizes]")
+TEST_CASE("wide cuts leave the moments of the normal and the lognormal distribution", "[size_distribution]")
 {
     const SizeDistribution normal{.min = 1.0, .max = 19.0, .law = Law::normal, .center = 10.0, .spread = 1.0};
     CHECK(normal.mean() == Approx(10.0).epsilon(1e-12));
@@ -69,7 +69,7 @@ TEST_CASE("wide cuts leave the moments of the normal and the lognormal distribut
     CHECK(lognormal.mean_volume() == Approx(std::numbers::pi / 6.0 * std::exp(4.5 * 0.09)).epsilon(1e-12));
 }
 
-TEST_CASE("drawn diameters keep to their range and have the mean diameter and volume of their law", "[sizes]")
+TEST_CASE("drawn diameters keep to their range and have the mean diameter and volume of their law", "[size_distribution]")
 {
     const std::vector<SizeDistribution> laws = {
         uniform_sizes, normal_sizes, lognormal_sizes, sieved_sizes({0.001, 0.002, 0.004, 0.008}, {0.0, 0.2, 0.9, 1.0})};
@@ -95,7 +95,7 @@ TEST_CASE("drawn diameters keep to their range and have the mean diameter and vo
 }
 
 TEST_CASE("sieved diameters reproduce the masses of their sieves, and between two sieves half of the mass at half way",
-    "[sizes]")
+    "[size_distribution]")
 {
     const std::vector<double> sizes = {0.001, 0.002, 0.004, 0.005, 0.008}, passing = {0.0, 0.2, 0.9, 0.9, 1.0};
     const auto distribution = sieved_sizes(sizes, passing);
@@ -119,7 +119,7 @@ TEST_CASE("sieved diameters reproduce the masses of their sieves, and between tw
     for (std::size_t i = 0; i < limits.size(); ++i) CHECK(below[i] / mass == Approx(wanted[i]).margin(0.008));
 }
 
-TEST_CASE("a normal distribution is drawn right from its tail", "[sizes]")
+TEST_CASE("a normal distribution is drawn right from its tail", "[size_distribution]")
 {
     // From 2 standard deviations above the mean on: 2.3 % of the distribution, of which 5.9 % lie above 3.
     const SizeDistribution tail{.min = 3.0, .max = 9.0, .law = Law::normal, .center = 1.0, .spread = 1.0};

@@ -245,7 +245,7 @@ to = 0.3
                            "ceil(0.3/", "unfix wall1_plate_move1"}));
 }
 
-TEST_CASE("what a deck cannot say is told, and nothing is left out in silence", "[export]")
+TEST_CASE("what a deck cannot say is reported, and nothing is left out in silence", "[export]")
 {
     const Built piston(one_bead("[[wall]]\nname = \"lid\"\nshape = \"disk\"\nradius = 0.1\ncenter = [0, 0, 0.3]\n"
                                 "material = \"glass\"\nmass = 1\nguide = [0, 0, -1]\n[[sensor]]\nname = \"load\"\n"

@@ -45,7 +45,7 @@ std::string refusal_of_override(const std::string& override_text)
 
 } // namespace
 
-TEST_CASE("an override reaches tables by name, by pair of materials and by index", "[toml_overrides]")
+TEST_CASE("an override reaches tables by name, by pair of materials and by index", "[overrides]")
 {
     CHECK(scene_with({"wall.gate.remove_at=2"}).wall[0].remove_at == 2.0);
     CHECK(scene_with({"contact.glass-steel.friction=0.6"}).contact[0].friction == 0.6);
@@ -57,7 +57,7 @@ TEST_CASE("an override reaches tables by name, by pair of materials and by index
     CHECK(by_index.wall[0].point == Vec3(0, 0, 1));
 }
 
-TEST_CASE("an override reaches the species of a fill by index", "[toml_overrides]")
+TEST_CASE("an override reaches the species of a fill by index", "[overrides]")
 {
     const std::string text = "[[fill]]\ncount = 1\nregion = { max = [1, 1, 1] }\n"
                              "[[fill.species]]\nmaterial = 'a'\ndiameter = 0.1\nshare = 1\n"
@@ -70,7 +70,7 @@ TEST_CASE("an override reaches the species of a fill by index", "[toml_overrides
           "--set fill.0.species.2.share=3: 'species' is an array of 2 and has no keys");
 }
 
-TEST_CASE("an override makes the plain tables that the file leaves out", "[toml_overrides]")
+TEST_CASE("an override makes the plain tables that the file leaves out", "[overrides]")
 {
     CHECK(scene_with({"time.duration=2.5"}).time.duration == 2.5);
     const scene::Scene two = scene_with({"solver.max_sweeps=7", "solver.min_sweeps = 4"});
@@ -79,7 +79,7 @@ TEST_CASE("an override makes the plain tables that the file leaves out", "[toml_
     CHECK(scene_with({"fill.0.region.min=[0.5, 0, 0]"}).fill[0].region.min == Vec3(0.5, 0, 0));
 }
 
-TEST_CASE("a bare word is taken as a string", "[toml_overrides]")
+TEST_CASE("a bare word is taken as a string", "[overrides]")
 {
     CHECK(scene_with({"solver.stabilisation=projected"}).solver.stabilisation == "projected");
     CHECK(scene_with({"title=Beads on a plate"}).title == "Beads on a plate");
@@ -87,12 +87,12 @@ TEST_CASE("a bare word is taken as a string", "[toml_overrides]")
     CHECK(scene_with({"title='quoted, with = and #'"}).title == "quoted, with = and #");
 }
 
-TEST_CASE("the last override of a key counts", "[toml_overrides]")
+TEST_CASE("the last override of a key counts", "[overrides]")
 {
     CHECK(scene_with({"seed=2", "seed=3"}).seed == 3);
 }
 
-TEST_CASE("an override is checked like the file, and refused in its own words", "[toml_overrides]")
+TEST_CASE("an override is checked like the file, and refused in its own words", "[overrides]")
 {
     CHECK(refusal_of_override("wall.gate.remov_at=2") ==
           "--set wall.gate.remov_at=2: unknown key 'remov_at' in [[wall]]; did you mean 'remove_at'?");
@@ -108,7 +108,7 @@ TEST_CASE("an override is checked like the file, and refused in its own words", 
     CHECK(refusal_of_override("wall=3") == "--set wall=3: 'wall' must be a list of tables [[wall]], not 3");
 }
 
-TEST_CASE("an override of a table that is not there is refused with those that are", "[toml_overrides]")
+TEST_CASE("an override of a table that is not there is refused with those that are", "[overrides]")
 {
     CHECK(refusal_of_override("wall.gat.remove_at=2") ==
           "--set wall.gat.remove_at=2: the scene has no wall 'gat'; did you mean 'gate'?");
@@ -124,7 +124,7 @@ TEST_CASE("an override of a table that is not there is refused with those that a
     CHECK(refusal_of_override("sensor.flow.to=1") == "--set sensor.flow.to=1: the scene has no sensor 'flow'");
 }
 
-TEST_CASE("an override that is not key=value is refused", "[toml_overrides]")
+TEST_CASE("an override that is not key=value is refused", "[overrides]")
 {
     CHECK(refusal_of_override("seed") == "--set seed: must be key=value on one line");
     CHECK(refusal_of_override("seed=\n3") == "--set seed= 3: must be key=value on one line");

@@ -96,10 +96,10 @@ TEST_CASE("a frame of the program reads back to the same spheres, to the precisi
     constexpr double float_precision = std::numeric_limits<float>::epsilon();
     for (std::size_t i = 0; i < 100; ++i) {
         CHECK((spheres.positions[i] - state.position[i]).norm() < float_precision);
-        CHECK((spheres.velocities.at(i) - state.motion[i].velocity).norm() < float_precision);
-        CHECK(spheres.radii.at(i) == Approx(state.radius(i)).epsilon(float_precision));
+        CHECK((spheres.velocities.at(i) - state.body(i).velocity).norm() < float_precision);
+        CHECK(spheres.radii.at(i) == Approx(state.radius[i]).epsilon(float_precision));
         const Vec3 rim = spheres.radii[i] * spheres.angular_velocities.at(i);
-        CHECK((rim - state.motion[i].rim_velocity).norm() < float_precision);
+        CHECK((rim - state.body(i).rim_velocity).norm() < float_precision);
     }
 }
 

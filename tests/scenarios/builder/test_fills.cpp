@@ -77,8 +77,8 @@ TEST_CASE("a single sphere is where the scene puts it, and others keep clear of 
     const auto simulation = build_scene(scene).simulation;
     CHECK(simulation.state.count() == 1001);
     CHECK(simulation.state.position[0] == Vec3(0.1, 0.1, 0.05));
-    CHECK(simulation.state.radius(0) == 0.025);
-    CHECK(simulation.state.motion[0].velocity == Vec3(1, 2, 3));
+    CHECK(simulation.state.radius[0] == 0.025);
+    CHECK(simulation.state.body(0).velocity == Vec3(1, 2, 3));
     CHECK(simulation.model.max_diameter == 0.05);
     CHECK(check_overlaps(simulation).count == 0);
 }
@@ -91,7 +91,7 @@ TEST_CASE("a temperature gives normal velocities of that mean square along each 
     scene.fill[0].temperature = 0.25;
     const auto state = build_scene(scene).simulation.state;
     Vec3 sum = Vec3::Zero(), squares = Vec3::Zero(), fourths = Vec3::Zero();
-    for (const Motion& m : state.motion) {
+    for (const Body& m : state.bodies) {
         const Vec3 v = m.velocity - Vec3(0, 0, 2);
         sum += v / 4000.0;
         squares += v.cwiseAbs2() / 4000.0;
@@ -153,8 +153,8 @@ TEST_CASE("a fill leaves free what it is told to", "[fills]")
     REQUIRE(state.count() == 1000);
     const Region tip = require_region(shaft, "");
     for (std::size_t i = 0; i < state.count(); ++i) {
-        CHECK((state.position[i] - ball.center).norm() >= ball.radius + state.radius(i));
-        CHECK(tip.depth(state.position[i]) <= -state.radius(i));
+        CHECK((state.position[i] - ball.center).norm() >= ball.radius + state.radius[i]);
+        CHECK(tip.depth(state.position[i]) <= -state.radius[i]);
     }
 }
 
@@ -180,7 +180,7 @@ TEST_CASE("a dense fill of mixed sizes takes 0.55 of its region before it settle
     const auto& state = simulation.state;
     const Region filled = require_region(region, "");
     CHECK(mass_of(state) / 2500.0 / filled.volume() >= 0.55);
-    for (std::size_t i = 0; i < state.count(); ++i) CHECK(filled.contains(state.position[i], state.radius(i)));
+    for (std::size_t i = 0; i < state.count(); ++i) CHECK(filled.contains(state.position[i], state.radius[i]));
     CHECK(check_overlaps(simulation).count == 0);
     scene.fill[0].filling = 0.7;
     CHECK_THROWS_WITH(build_scene(scene), Contains("0.70 of its region"));

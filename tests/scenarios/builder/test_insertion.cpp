@@ -62,7 +62,7 @@ TEST_CASE("a fill of two species has their shares of the mass, whatever their de
     CHECK(simulation.model.min_diameter == 0.006);
     CHECK(simulation.model.max_diameter == 0.009);
     double sum = 0.0;
-    for (std::size_t i = 0; i < simulation.state.count(); ++i) sum += 2.0 * simulation.state.radius(i);
+    for (std::size_t i = 0; i < simulation.state.count(); ++i) sum += 2.0 * simulation.state.radius[i];
     CHECK(simulation.model.mean_diameter == Approx(sum / 3000.0).epsilon(0.015));
 }
 
@@ -130,10 +130,10 @@ TEST_CASE("spheres of a file get their places, sizes and velocities, and the fil
     const auto& state = simulation.state;
     REQUIRE(state.count() == 2);
     CHECK(state.position[1] == Vec3(0.1, 0.05, 0.05));
-    CHECK(state.radius(1) == Approx(0.006));
-    CHECK(state.motion[0].velocity == Vec3(1, 0, -1));
-    CHECK(state.motion[1].velocity == Vec3(0, 1, -1));
-    CHECK(state.motion[1].rim_velocity.isApprox(Vec3(0, 0.006, 0)));
+    CHECK(state.radius[1] == Approx(0.006));
+    CHECK(state.body(0).velocity == Vec3(1, 0, -1));
+    CHECK(state.body(1).velocity == Vec3(0, 1, -1));
+    CHECK(state.body(1).rim_velocity.isApprox(Vec3(0, 0.006, 0)));
     CHECK(simulation.model.min_diameter == 0.008);
     CHECK(simulation.model.max_diameter == 0.012);
     CHECK(simulation.model.mean_diameter == Approx(0.01));
@@ -150,7 +150,7 @@ TEST_CASE("a file without radii takes the fill's diameter, and later fills keep 
     scene.fill[0].count = 1000;
     scene.fill.insert(scene.fill.begin(), listed);
     const auto simulation = build_scene(scene).simulation;
-    CHECK(simulation.state.radius(1) == Approx(0.01));
+    CHECK(simulation.state.radius[1] == Approx(0.01));
     CHECK(simulation.state.count() == 1002);
     CHECK(check_overlaps(simulation).count == 0);
 }

@@ -157,7 +157,7 @@ const std::vector<Mistake> of_the_rest = {
 
 } // namespace
 
-TEST_CASE("a mistake in the rest of a scene is told, with its key and the reason", "[scenes][errors]")
+TEST_CASE("a mistake in the rest of a scene is reported, with its key and the reason", "[scenes][errors]")
 {
     SECTION("materials and their contacts")
     {
@@ -177,7 +177,7 @@ TEST_CASE("a mistake in the rest of a scene is told, with its key and the reason
     }
 }
 
-TEST_CASE("of several mistakes the first in the order of the scene is told", "[scenes][errors]")
+TEST_CASE("of several mistakes the first in the order of the scene is reported", "[scenes][errors]")
 {
     const std::vector<std::pair<std::string, std::function<void(S&)>>> mistakes = {
         {"solver.max_sweeps", [](S& s) { s.solver.max_sweeps = 1; }},

@@ -219,7 +219,7 @@ const std::vector<Mistake> of_insertion = {
 
 } // namespace
 
-TEST_CASE("a mistake in what spheres there are is told, with its key and the reason", "[scenes][errors]")
+TEST_CASE("a mistake in what spheres there are is reported, with its key and the reason", "[scenes][errors]")
 {
     SECTION("spheres")
     {

@@ -83,7 +83,7 @@ const std::vector<Mistake> of_masses = {
     {give_mass([](auto& w) { w.guide.setZero(); }), "wall[0].guide",
         "a wall of finite mass needs a 'guide', the axis along which it moves"},
     {give_mass([](auto& w) { w.motion.emplace_back().kind = "translate"; }), "wall[0].mass",
-        "a wall moves as told or as forces have it: leave out 'mass' or the motion"},
+        "a wall moves as prescribed or as forces have it: leave out 'mass' or the motion"},
     {give_mass([](auto& w) { w.remove_at = 1.0; }), "wall[0].mass",
         "a wall of finite mass is there for the whole run: leave out 'appear_at' and 'remove_at'"},
     {give_mass([](auto& w) { w.appear_at = 1.0; }), "wall[0].mass",
@@ -104,7 +104,7 @@ const std::vector<Mistake> of_masses = {
          s.sensor = {sensor("a", "wall_position")};
          s.sensor[0].wall = "box";
      },
-        "sensor[0].wall", "the wall 'box' has no finite mass: it is where it is told"},
+        "sensor[0].wall", "the wall 'box' has no finite mass: it moves as prescribed"},
 };
 
 const std::vector<Mistake> of_motions = {
@@ -172,7 +172,7 @@ const std::vector<Mistake> of_motions = {
 
 } // namespace
 
-TEST_CASE("a mistake in walls and how they move is told, with its key and the reason", "[scenes][errors]")
+TEST_CASE("a mistake in walls and how they move is reported, with its key and the reason", "[scenes][errors]")
 {
     SECTION("walls")
     {
@@ -188,7 +188,7 @@ TEST_CASE("a mistake in walls and how they move is told, with its key and the re
     }
 }
 
-TEST_CASE("of two tables with one name both are told", "[scenes][errors]")
+TEST_CASE("of two tables with one name both are reported", "[scenes][errors]")
 {
     auto scene = small_scene();
     scene.wall.push_back(wall("plane"));

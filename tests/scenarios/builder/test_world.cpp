@@ -54,7 +54,7 @@ TEST_CASE("a world between upright planes ends a little behind them", "[world]")
     CHECK(std::isfinite(world_of(scene).max.y()));
 }
 
-TEST_CASE("the bounds of a world are told axis by axis", "[world]")
+TEST_CASE("the bounds of a world are reported axis by axis", "[world]")
 {
     CHECK(explain_world({Vec3(0, -infinity, -infinity), Vec3(infinity, 1.5, infinity)}) ==
           "x from 0 up, y up to 1.5, z without end, in m");

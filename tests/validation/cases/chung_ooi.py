@@ -20,7 +20,7 @@ References: the curves of the paper for 4 (aluminium oxide) and 6 as digitised f
 applications/DEMApplication/tests/DEM3D_chung_ooi_tests (test4_data/paper_data, paper_data_5_to_8/benchmark8_graph1.dat).
 
 Tolerances, fixed before the runs: 1e-6 against the laws, the precision of the frames. Against the curves, for which some
-pixels are told: angular velocity 3 %, tangential restitution 0.01, rebound angle 2°, β 0.03; the same where the contact
+pixels are reported: angular velocity 3 %, tangential restitution 0.01, rebound angle 2°, β 0.03; the same where the contact
 sticks, though a rigid law cannot keep it there.
 
 There is no chance in these runs: each is made once.
@@ -32,7 +32,7 @@ import numpy
 from case import Row, Simulation
 
 TITLE = "Chung & Ooi's tests"
-FINDINGS = """Tests 1 and 2 are told by their force over the approach, which a rigid contact has not: only the speeds can
+FINDINGS = """Tests 1 and 2 are given by their force over the approach, which a rigid contact has not: only the speeds can
 be compared. Where the contact slides to its end, Talus is on the curves. Where it sticks, from the normal to the bend
 of the curves, it is on the rigid law and not on them: there an elastic contact winds up along the plane and gives back a
 part of the slip, reversed, which a law without tangential restitution leaves out."""

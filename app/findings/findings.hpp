@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/findings/force_profile.hpp"
+#include "app/findings/quietness.hpp"
 #include "app/loop/run_statistics.hpp"
 #include "app/loop/schedule.hpp"
-#include "core/sensors/force_profile.hpp"
-#include "core/sensors/quietness.hpp"
 #include "core/simulation/simulation.hpp"
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace talus
 {
 
-/// Units in which findings are told, so that they compare from scene to scene. Without gravity, what would be that
+/// Units in which findings are reported, so that they compare from scene to scene. Without gravity, what would be that
 /// of gravity is taken from the speeds at the start.
 struct StudyUnits {
     explicit StudyUnits(const Simulation& start);

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/sensors/quietness.hpp"
-
-#include "core/step/diagnostics.hpp"
+#include "app/findings/quietness.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -19,7 +17,7 @@ double energy_without_rattlers(const State& state)
 {
     if (state.count() == 0) return 0.0;
     std::vector<double> energy;
-    for (const Motion& m : state.motion) energy.push_back(kinetic_energy(m));
+    for (const Body& m : state.bodies) energy.push_back(m.kinetic_energy());
     const auto kept =
         energy.begin() + static_cast<std::ptrdiff_t>((1.0 - liveliest) * static_cast<double>(energy.size()));
     std::nth_element(energy.begin(), kept, energy.end());
@@ -33,7 +31,7 @@ double packing_height(const State& state, const Vec3& up)
     double foot = infinity, mass = 0.0, moment = 0.0;
     for (std::size_t i = 0; i < state.count(); ++i) {
         const double height = up.dot(state.position[i]);
-        foot = std::min(foot, height - state.radius(i));
+        foot = std::min(foot, height - state.radius[i]);
         mass += state.mass(i);
         moment += state.mass(i) * height;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/python/findings.hpp"
+#include "app/findings/findings.hpp"
 
 #include "core/contacts/loads.hpp"
 
@@ -23,7 +23,7 @@ double mass_of(const State& state)
 double rms_speed(const State& state)
 {
     double squares = 0.0;
-    for (const Motion& m : state.motion) squares += m.velocity.squaredNorm();
+    for (const Body& m : state.bodies) squares += m.velocity.squaredNorm();
     return state.count() > 0 ? std::sqrt(squares / static_cast<double>(state.count())) : 0.0;
 }
 

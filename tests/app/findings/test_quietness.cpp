@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/sensors/quietness.hpp"
+#include "app/findings/quietness.hpp"
 #include "tests/support/world.hpp"
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@ TEST_CASE("two rattlers in a hundred do not count as restlessness, a third does"
     for (int k = 0; k < 100; ++k) world.add_sphere(Vec3(k, 0, 0), k < 2 ? Vec3(1, 0, 0) : Vec3(0.001, 0, 0));
     const double m = world.mass();
     CHECK(energy_without_rattlers(world.state) == within(1e-12, 0.5 * m * 1e-6));
-    world.state.motion[50].velocity.x() = 0.1;
+    world.state.body(50).velocity.x() = 0.1;
     CHECK(energy_without_rattlers(world.state) == within(1e-12, 0.5 * m * (97 * 1e-6 + 1e-2) / 98));
     CHECK(energy_without_rattlers(State{}) == 0.0);
 }

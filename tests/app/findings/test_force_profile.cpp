@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/sensors/force_profile.hpp"
+#include "app/findings/force_profile.hpp"
 #include "tests/support/world.hpp"
 
 #include <catch2/catch.hpp>

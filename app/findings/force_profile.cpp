@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/sensors/force_profile.hpp"
+#include "app/findings/force_profile.hpp"
 
 #include "core/contacts/loads.hpp"
 
@@ -14,8 +14,8 @@ ForceProfile::ForceProfile(const State& state, const Vec3& up, std::size_t cuts)
     double foot = infinity, top = -infinity;
     for (std::size_t i = 0; i < state.count(); ++i) {
         const double height = up.dot(state.position[i]);
-        foot = std::min(foot, height - state.radius(i));
-        top = std::max(top, height + state.radius(i));
+        foot = std::min(foot, height - state.radius[i]);
+        top = std::max(top, height + state.radius[i]);
     }
     if (state.count() == 0) return;
     foot_ = foot;
