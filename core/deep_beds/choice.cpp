@@ -29,9 +29,9 @@ bool needs_rigid_contacts(const BedMeasures& bed)
     return bed.depth >= tall || bed.mass_ratio >= crushing;
 }
 
-int sweeps_after_scaling(const BedMeasures& bed)
+int least_sweeps_after_scaling(const BedMeasures& bed)
 {
-    return bed.depth >= very_deep ? 6 : 3;
+    return bed.depth >= very_deep ? 6 : 1;
 }
 
 } // namespace talus

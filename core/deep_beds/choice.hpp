@@ -25,7 +25,8 @@ bool needs_scaled_pressures(const BedMeasures& bed, const Model& model);
 /// many seconds, and so heavy a sphere presses grains through the floor.
 bool needs_rigid_contacts(const BedMeasures& bed);
 
-/// N_min at least, where pressures are scaled: in very deep beds three sweeps do not clean up after it.
-int sweeps_after_scaling(const BedMeasures& bed);
+/// N_min at least, where pressures are scaled: in very deep beds the usual three sweeps do not clean up after it. In
+/// others it asks for nothing.
+int least_sweeps_after_scaling(const BedMeasures& bed);
 
 } // namespace talus

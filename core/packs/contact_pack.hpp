@@ -18,7 +18,7 @@ inline constexpr int pack_size = 8;
 struct alignas(64) ContactPack {
     // Placed by assembly (PackFiller), read by all.
     std::int32_t a[pack_size]; ///< body that a sweep changes, of the sphere with the same index (State::body_of)
-    std::int32_t b[pack_size]; ///< likewise or, in packs of wall contacts, the wall
+    std::int32_t b[pack_size]; ///< the other one or, in packs of wall contacts, the wall
 
     // Found by detection and recalled from materials, read by laws and sweeps.
     double normal[3][pack_size]; ///< n, unit, from b to a

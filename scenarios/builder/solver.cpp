@@ -188,7 +188,7 @@ SolverChoice complete_solver(SolverSettings solver, const scene::Scene& scene, c
     }
     solver.pressure_scaling = scaled && solver.stabilisation == Stabilisation::projected;
     if (solver.pressure_scaling && table.min_sweeps == 0)
-        solver.min_sweeps = std::clamp(sweeps_after_scaling(bed), solver.min_sweeps, solver.max_sweeps);
+        solver.min_sweeps = std::clamp(least_sweeps_after_scaling(bed), solver.min_sweeps, solver.max_sweeps);
     return {solver, step_factor, explanation};
 }
 

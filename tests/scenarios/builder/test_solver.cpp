@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/builder/build_scene.hpp"
+#include "scenarios/builder/solver.hpp"
 #include "tests/scenarios/measured_settings.hpp"
 #include "tests/scenarios/small_scene.hpp"
 
@@ -90,6 +91,9 @@ TEST_CASE("whether pressures are scaled is as the scene says, if it does", "[sca
 TEST_CASE("six sweeps go with scaling in beds of a hundred grains and more", "[scaling_choice]")
 {
     CHECK(solver_of(tube(90)).min_sweeps == 3);
+    const auto shallower = build_scene(tube(90)).simulation; // a measured setting of two keeps them
+    CHECK(complete_solver(build_solver(tube(90).solver, {.min_sweeps = 2}), tube(90), shallower).settings.min_sweeps ==
+          2);
     auto deep = tube(110);
     CHECK(solver_of(deep).min_sweeps == 6);
     SECTION("not more than the scene allows")
