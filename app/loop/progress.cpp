@@ -2,6 +2,8 @@
 #include "app/loop/progress.hpp"
 
 #include "core/contacts/loads.hpp"
+#include "io/run/summary.hpp"
+#include "scenarios/builder/checks.hpp"
 
 #include <fmt/format.h>
 
@@ -35,10 +37,11 @@ std::string cut_to_terminal(const std::string& text)
     return text.substr(0, known ? size.ws_col - 1 : 79);
 }
 
-constexpr int long_move_steps = 10;     ///< a few fast grains now and then do no harm
-constexpr double deep_overlap = 0.05;   ///< diameters
-constexpr double wanted_overlap = 0.02; ///< diameters
-constexpr int deep_overlap_steps = 200; ///< an impact's overlap is over sooner
+constexpr int many_splits = 10;          ///< a few fast grains now and then do no harm
+constexpr double unsplit_approach = 0.1; ///< smallest diameters
+constexpr double deep_overlap = 0.05;    ///< diameters
+constexpr double wanted_overlap = 0.02;  ///< diameters
+constexpr int deep_overlap_steps = 200;  ///< an impact's overlap is over sooner
 
 /// Rounded down to two digits.
 double round_down(double value)
@@ -70,20 +73,19 @@ std::string deepest_now(const Simulation& simulation)
 
 std::string StepWatch::warning_after(const StepReport& report, const Simulation& simulation)
 {
-    const std::string of_moves = warning_of_moves(report, simulation.model);
-    return of_moves.empty() ? warning_of_overlap(report, simulation) : of_moves;
+    const std::string of_splits = warning_of_splits(report, simulation.model);
+    return of_splits.empty() ? warning_of_overlap(report, simulation) : of_splits;
 }
 
-std::string StepWatch::warning_of_moves(const StepReport& report, const Model& model)
+std::string StepWatch::warning_of_splits(const StepReport& report, const Model& model)
 {
-    if (move_told_ || report.bodies.long_moves == 0) return "";
-    fastest_ = std::max(fastest_, report.bodies.fastest_speed);
-    if (++steps_with_long_moves_ < long_move_steps) return "";
-    move_told_ = true;
-    return fmt::format(
-        "spheres have moved over 0.1 d in {} steps, up to {:.3g} m/s fast; steps are split from 0.2 d on, "
-        "shorter ones see every impact more closely: --set time.step={:.2g}",
-        steps_with_long_moves_, fastest_, round_down(0.1 * model.min_diameter / fastest_));
+    if (split_told_ || report.sub_steps == 1) return "";
+    if (report.split_for.speed > fastest_.speed) fastest_ = report.split_for;
+    if (++split_steps_ < many_splits) return "";
+    split_told_ = true;
+    return fmt::format("{} steps have been split so far, for {}; all could be as long: --set time.step={:.2g}",
+        split_steps_, describe(fastest_, names_of(model.walls)),
+        round_down(unsplit_approach * model.min_diameter / fastest_.speed));
 }
 
 std::string StepWatch::warning_of_overlap(const StepReport& report, const Simulation& simulation)

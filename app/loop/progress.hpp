@@ -19,13 +19,13 @@ public:
     std::string warning_after(const StepReport& report, const Simulation& simulation);
 
 private:
-    int steps_with_long_moves_ = 0;
-    double fastest_ = 0.0; ///< in those [m/s]
+    int split_steps_ = 0;
+    Approach fastest_;     ///< in those
     int deep_steps_ = 0;   ///< in a row with deep overlap
     double deepest_ = 0.0; ///< in those [m]
-    bool move_told_ = false, overlap_told_ = false;
+    bool split_told_ = false, overlap_told_ = false;
 
-    std::string warning_of_moves(const StepReport& report, const Model& model);
+    std::string warning_of_splits(const StepReport& report, const Model& model);
     std::string warning_of_overlap(const StepReport& report, const Simulation& simulation);
 };
 

@@ -211,10 +211,9 @@ void print_error(const RunSummary& summary)
             "companions", summary.companion_pieces, summary.companion_length);
     say("  {:<28} mean {:.2g} % d, worst {:.2g} % d at {:.4g} s\n", "overlap", 100.0 * e.mean_overlap,
         100.0 * e.worst_overlap, e.worst_overlap_time);
-    say("  {:<28} {}\n", "moves over 0.1 d in a step", e.long_moves);
     if (e.split_steps > 0)
-        say("  {:<28} {} of {}, up to {} sub-steps each\n", "steps split for fast spheres", e.split_steps,
-            summary.steps, e.most_sub_steps);
+        say("  {:<28} {} of {}, into {} at most, for {}\n", "steps split", e.split_steps, summary.steps,
+            e.most_sub_steps, describe(e.split_for, summary.wall_names));
     say("  {:<28} {:.2g} N s\n", "worst cone violation", e.cone_violation);
     if (e.corrections > 0)
         say("  {:<28} {} of {} ({:.2g} %)\n", "pressure corrections refused", e.refused_corrections, e.corrections,

@@ -73,8 +73,10 @@ void RunStatistics::add(const StepReport& report, const Simulation& simulation)
     residuals_.add(report.solve.residual);
     if (!report.solve.converged) ++sums_.steps_at_cap;
     if (report.sub_steps > 1) ++sums_.split_steps;
-    sums_.most_sub_steps = std::max<std::int64_t>(sums_.most_sub_steps, report.sub_steps);
-    sums_.long_moves += static_cast<std::int64_t>(report.bodies.long_moves);
+    if (report.sub_steps > sums_.most_sub_steps) {
+        sums_.most_sub_steps = report.sub_steps;
+        sums_.split_for = report.split_for;
+    }
     sums_.cone_violation = std::max(sums_.cone_violation, report.outcome.cone_violation);
     sums_.corrections += report.scaling.corrections;
     sums_.refused_corrections += report.scaling.refused;

@@ -176,8 +176,6 @@ void bind_report(py::module_& module)
             "of the spheres, (3,) [N s]")
         .def_property_readonly(
             "fastest", [](const Report& r) { return r.bodies.fastest_speed; }, "[m/s]")
-        .def_property_readonly(
-            "long_moves", [](const Report& r) { return r.bodies.long_moves; }, "spheres over 0.1 d")
         .def("__repr__", [](const Report& r) {
             return fmt::format("<StepReport: {} contacts, {} sweeps, residual {:.2g}>", r.contacts.count,
                 r.solve.sweeps, r.solve.residual);

@@ -12,6 +12,7 @@ ContactSurvey& ContactSurvey::operator+=(const ContactSurvey& other)
     impacts += other.impacts;
     overlapping += other.overlapping;
     worst_strain = std::max(worst_strain, other.worst_strain);
+    closing_speed = std::max(closing_speed, other.closing_speed);
     worst_overlap = std::max(worst_overlap, other.worst_overlap);
     overlap_sum += other.overlap_sum;
     stored_energy += other.stored_energy;
@@ -36,6 +37,7 @@ ContactSurvey survey_of(const TouchSums& sums)
             .overlapping = static_cast<std::size_t>(sums.overlapping[lane]),
             .impacts = static_cast<std::size_t>(sums.impacts[lane]),
             .worst_strain = sums.worst_strain[lane],
+            .closing_speed = sums.closing_speed[lane],
             .worst_overlap = sums.worst_overlap[lane],
             .overlap_sum = sums.overlap[lane],
             .stored_energy = sums.stored_energy[lane],

@@ -141,8 +141,10 @@ WallPoint WallDetection::nearest_on_path(
     WallPoint at = now;
     for (int k = 0; k < halvings; ++k) {
         const double middle = 0.5 * (early + late);
-        at = wall.nearest_point(static_cast<std::size_t>(now.patch), x_ + middle * velocity);
-        (at.normal.dot(velocity) < 0.0 ? early : late) = middle;
+        const WallPoint next = wall.nearest_point(static_cast<std::size_t>(now.patch), x_ + middle * velocity);
+        const bool before = next.normal.dot(velocity) < 0.0;
+        (before ? early : late) = middle;
+        if (before) at = next; // beyond the middle of a wall without thickness its normal is that of the other side
     }
     return at;
 }

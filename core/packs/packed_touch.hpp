@@ -245,8 +245,8 @@ template <int width>
 
 /// Notes what has become of these touches, those within reach.
 template <int width>
-[[gnu::always_inline]] inline void take_down(
-    RecordPack& record, TouchSums& sums, const TouchPack& touch, int first, const Flags<width>& within_reach)
+[[gnu::always_inline]] inline void take_down(RecordPack& record, TouchSums& sums, const TouchPack& touch, int first,
+    const Flags<width>& within_reach, const LawOfStep& step)
 {
     const Numbers<width> gap = load<width>(touch.gap + first), none = {};
     const Flags<width> kind = load_flags<width>(touch.kind + first), overlaps = within_reach & (gap < 0.0);
@@ -268,6 +268,10 @@ template <int width>
     count(sums.impacts, within_reach & (kind == static_cast<std::int64_t>(ContactKind::impact)));
     const Numbers<width> strain = load<width>(touch.strain + first), before = load<width>(sums.worst_strain + first);
     store<width>(sums.worst_strain + first, larger<Numbers<width>>(before, within_reach ? strain : none));
+    const Flags<width> meets = within_reach & (load<width>(touch.closes + first) <= none + step.h);
+    const Numbers<width> closing = load<width>(sums.closing_speed + first);
+    store<width>(
+        sums.closing_speed + first, larger<Numbers<width>>(closing, meets ? -load<width>(touch.u_n + first) : none));
 
     store<width>(record.gap + first, gap);
     store<width>(record.inverse_mass_sum + first, load<width>(touch.inverse_mass_sum + first));
@@ -290,7 +294,7 @@ template <int width>
     TouchSums& sums, PackImpacts& impacts, int first, const Flags<width>& within_reach, const StepConstants& step)
 {
     apply_law<width>(contact, touch, first, within_reach, step);
-    take_down<width>(record, sums, touch, first, within_reach);
+    take_down<width>(record, sums, touch, first, within_reach, step.law);
     const Numbers<width> size = load<width>(touch.impact_size + first);
     store<width>(impacts.size + first, size);
     impacts.lanes |= bits<width>(size > 0.0) << first;

@@ -23,11 +23,9 @@ std::optional<Incident::Kind> incident_of(const State& state, const Model& model
 }
 
 /// Gravity acted for a step where the spheres were before x ← x + h v.
-StateSurvey survey_block(
-    const State& state, const Model& model, const StepLength& step, std::size_t begin, std::size_t end)
+StateSurvey survey_block(const State& state, const Model& model, double h, std::size_t begin, std::size_t end)
 {
     StateSurvey survey;
-    const double h = step.h();
     double all_mass = 0.0;
     Vec3 moment = Vec3::Zero(); // Σ m x
     for (std::size_t i = begin; i < end; ++i) {
@@ -40,7 +38,6 @@ StateSurvey survey_block(
         survey.momentum.linear += mass * body.velocity;
         survey.momentum.angular += body.angular_momentum(x);
         survey.fastest_speed = std::max(survey.fastest_speed, speed);
-        if (speed * step.whole > 0.2 * state.radius[i]) ++survey.long_moves;
         if (const auto kind = incident_of(state, model, i, speed))
             survey.incidents.push_back({*kind, state.id[i], x, speed, state.last_wall[i]});
     }
@@ -61,18 +58,13 @@ std::optional<Incident::Kind> incident_of(const PistonState& state, const Vec3& 
     return std::nullopt;
 }
 
-/// A piston that moves further in a whole step has made a long move; in smallest diameters.
-constexpr double longest_piston_move = 0.1;
-
-void survey_piston(
-    const Piston& piston, const PistonState& state, const Model& model, const StepLength& step, StateSurvey& survey)
+void survey_piston(const Piston& piston, const PistonState& state, const Model& model, StateSurvey& survey)
 {
     const Vec3 center = state.pose(piston.center);
     const double speed = state.velocity.norm();
     survey.kinetic_energy += kinetic_energy(piston, state);
     survey.potential_energy -= piston.mass * model.gravity.dot(center);
     survey.fastest_speed = std::max(survey.fastest_speed, speed);
-    if (speed * step.whole > longest_piston_move * model.min_diameter) ++survey.long_moves;
     if (const auto kind = incident_of(state, center, model))
         survey.incidents.push_back({*kind, -1, center, speed, static_cast<std::int32_t>(piston.wall)});
 }
@@ -131,13 +123,12 @@ void StateSurvey::then(StateSurvey next)
     next.gravity_work += gravity_work;
     next.load_work += load_work;
     next.fastest_speed = std::max(next.fastest_speed, fastest_speed);
-    next.long_moves = std::max(next.long_moves, long_moves);
     add_incidents(incidents, std::move(next.incidents));
     next.incidents = std::move(incidents);
     *this = std::move(next);
 }
 
-StateSurvey survey_state(const State& state, const Model& model, const StepLength& step)
+StateSurvey survey_state(const State& state, const Model& model, double h)
 {
     const std::size_t blocks = (state.count() + block - 1) / block;
     std::vector<StateSurvey> of_block(blocks);
@@ -145,7 +136,7 @@ StateSurvey survey_state(const State& state, const Model& model, const StepLengt
     for (std::int64_t b = 0; b < static_cast<std::int64_t>(blocks); ++b) {
         const auto begin = static_cast<std::size_t>(b) * block;
         of_block[static_cast<std::size_t>(b)] =
-            survey_block(state, model, step, begin, std::min(begin + block, state.count()));
+            survey_block(state, model, h, begin, std::min(begin + block, state.count()));
     }
     StateSurvey all;
     for (const auto& part : of_block) {
@@ -155,12 +146,11 @@ StateSurvey survey_state(const State& state, const Model& model, const StepLengt
         all.momentum += part.momentum;
         all.from_gravity += part.from_gravity;
         all.fastest_speed = std::max(all.fastest_speed, part.fastest_speed);
-        all.long_moves += part.long_moves;
         all.incidents.insert(all.incidents.end(), part.incidents.begin(), part.incidents.end());
     }
     for (std::size_t k = 0; k < model.pistons.size(); ++k)
-        survey_piston(model.pistons[k], state.pistons[k], model, step, all);
-    survey_own_forces(all, state, step.h());
+        survey_piston(model.pistons[k], state.pistons[k], model, all);
+    survey_own_forces(all, state, h);
     return all;
 }
 

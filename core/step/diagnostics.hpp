@@ -4,7 +4,6 @@
 #include "core/step/incidents.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
-#include "core/world/step_length.hpp"
 
 #include <vector>
 
@@ -35,14 +34,13 @@ struct StateSurvey {
     Momentum momentum;               ///< of the spheres, with the new velocities in the new places
     Momentum from_gravity;           ///< what gravity and own forces gave them in the step, where they were
     double fastest_speed = 0.0;      ///< [m/s]
-    std::size_t long_moves = 0;      ///< spheres, and pistons, that move more than 0.1 d in a whole step at their speed
     std::vector<Incident> incidents; ///< in storage order, pistons last; empty in every healthy step
 
     /// The next sub-step: sums of work, the fastest, the energies of the last.
     void then(StateSurvey next);
 };
 
-/// @pre the step has been made; what loads did on pistons is not known here
-StateSurvey survey_state(const State& state, const Model& model, const StepLength& step);
+/// @param h of the step, which has been made [s]; what loads did on pistons is not known here
+StateSurvey survey_state(const State& state, const Model& model, double h);
 
 } // namespace talus

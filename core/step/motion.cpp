@@ -59,16 +59,13 @@ void mark_leaving(State& state, const std::vector<Region>& outlets)
             if (outlet.contains(state.position[i])) state.leaving[i] = 1;
 }
 
-double fastest_of(const State& state, const std::vector<Flight>& flights, double h)
+double farthest_throw(const State& state, const std::vector<Vec3>& free_velocity)
 {
-    double fastest = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : fastest) if (state.count() > few_spheres)
-    for (std::size_t i = 0; i < state.count(); ++i) fastest = std::max(fastest, state.body(i).velocity.squaredNorm());
-    for (const PistonState& piston : state.pistons) fastest = std::max(fastest, piston.velocity.squaredNorm());
-    fastest = std::sqrt(fastest);
-    for (const Flight& flight : flights)
-        fastest = std::max(fastest, (1.0 - flight.instant / h) * state.body(flight.sphere).velocity.norm());
-    return fastest;
+    double square = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : square) if (state.count() > few_spheres)
+    for (std::size_t i = 0; i < state.bodies.size(); ++i)
+        square = std::max(square, (state.bodies[i].velocity - free_velocity[i]).squaredNorm());
+    return std::sqrt(square);
 }
 
 } // namespace talus

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/base/region.hpp"
-#include "core/contacts/flight.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
 
@@ -30,7 +29,8 @@ void wrap_positions(State& state, const Periodicity& periodicity);
 /// away.
 void mark_leaving(State& state, const std::vector<Region>& outlets);
 
-/// The speed of the fastest sphere or piston, for those in flight that of the way which they have left to go [m/s].
-double fastest_of(const State& state, const std::vector<Flight>& flights, double h);
+/// By how much impulses have changed the velocity of that sphere most that they have thrown furthest: |v − v⁽¹⁾| [m/s].
+/// @param free_velocity v⁽¹⁾ by body
+double farthest_throw(const State& state, const std::vector<Vec3>& free_velocity);
 
 } // namespace talus

@@ -21,6 +21,15 @@ constexpr int most_sweeps = 3000;                ///< … beyond which a step go
 constexpr double tolerance_beyond = 0.1 / 300.0; ///< … that of a ratio beyond `most_impact_ratio` …
 constexpr int most_sweeps_beyond = 900;          ///< … and its sweeps
 
+// What two come nearer in a step, in smallest diameters.
+constexpr double longest_approach = 0.2;
+constexpr double sub_step_approach = 0.1;
+constexpr double longest_throw = 0.4; ///< by impulses: by 0.5 the centre of what touched a thin wall is inside it
+
+/// Nothing is thrown so many times as fast as two close at most: a light sphere that a heavy one meets twice as fast,
+/// through a lighter one between them four times.
+constexpr double greatest_gain = 10.0;
+
 /// What an impact of something much heavier than what bears it leaves undone in its step, takes the bounces of many.
 /// What is pinched bears impulses beside which those of all others are small: ε would not see their errors. But with
 /// sweeps to the end they would only grow, where walls leave no room.
@@ -79,8 +88,17 @@ public:
         pistons_->store(network_, state_);
     }
 
-    /// Of what there is now [m/s].
-    double fastest() const { return fastest_of(state_, prepared_.flights, h_); }
+    /// How much nearer those come that touch in the step [m].
+    double approach() const { return h_ * prepared_.contacts.closing_speed; }
+
+    /// How far impulses throw what they throw furthest, from where it would have come [m].
+    double farthest_throw() const
+    {
+        double speed = talus::farthest_throw(state_, network_.contacts.free_velocity);
+        for (std::size_t k = 0; k < state_.pistons.size(); ++k)
+            speed = std::max(speed, (state_.pistons[k].velocity - network_.before.pistons[k].velocity).norm());
+        return h_ * speed;
+    }
 
     /// Positions with the new velocity: x ← x + h v. What walls bear is measured before.
     void move()
@@ -104,7 +122,7 @@ public:
         network_.carried.load_before_impact = solver_.to_the_end ? warm_size_ : infinity;
         mark_leaving(state_, model_.outlets);
         report_.outcome = carry_impulses(network_, state_, model_, length_);
-        report_.bodies = survey_state(state_, model_, length_);
+        report_.bodies = survey_state(state_, model_, h_);
         report_.bodies.load_work += load_work_;
         if (report_.outcome.newly_jammed > 0)
             std::ranges::move(find_presses(network_, state_, model_), std::back_inserter(incidents_));
@@ -150,15 +168,19 @@ void StepReport::then(StepReport next)
     for (std::size_t w = 0; w < wall_loads.size(); ++w) wall_loads[w] += next.wall_loads[w];
 }
 
-std::optional<StepReport> advance_once(const StepLength& length, double fastest, State& state, ContactNetwork& network,
-    const Model& model, const PhaseObserver& observer)
+std::optional<StepReport> advance_once(const StepLength& length, bool in_any_case, State& state,
+    ContactNetwork& network, const Model& model, const PhaseObserver& observer)
 {
     Step step(length, state, network, model, observer);
+    const double d = model.min_diameter;
     step.prepare();
-    if (fastest < infinity) network.before.take(state);
+    if (!in_any_case && step.approach() > (length.is_split() ? sub_step_approach : longest_approach) * d)
+        return std::nullopt;
+    const bool may_throw = !in_any_case && greatest_gain * step.approach() > longest_throw * d;
+    if (may_throw) network.before.take(state);
     step.free_motion();
     step.solve();
-    if (fastest < infinity && step.fastest() > fastest) {
+    if (may_throw && step.farthest_throw() > longest_throw * d) {
         network.before.put_back(state);
         return std::nullopt;
     }

@@ -192,16 +192,17 @@ Json to_json(const SolverErrorSummary& solver)
         {"contact_forces", solver.force_error}, {"wall_forces", walls}};
 }
 
-Json to_json(const ErrorSummary& error)
+Json to_json(const ErrorSummary& error, const std::vector<std::string>& wall_names)
 {
+    Json sub_steps = {{"steps", error.split_steps}, {"most", error.most_sub_steps}, {"asked_by", nullptr}};
+    if (error.most_sub_steps > 1) sub_steps["asked_by"] = describe(error.split_for, wall_names);
     return {{"residual",
                 {{"tolerance", error.tolerance}, {"mean", error.mean_residual}, {"percentile_95", error.residual_95},
                     {"worst", error.worst_residual}, {"steps_at_cap", error.steps_at_cap}}},
 
         {"overlap_d",
             {{"mean", error.mean_overlap}, {"worst", error.worst_overlap}, {"worst_at", error.worst_overlap_time}}},
-        {"long_moves", error.long_moves}, {"sub_steps", {{"steps", error.split_steps}, {"most", error.most_sub_steps}}},
-        {"cone_violation", error.cone_violation},
+        {"sub_steps", sub_steps}, {"cone_violation", error.cone_violation},
         {"pressure_scaling", {{"corrections", error.corrections}, {"refused", error.refused_corrections}}},
         {"energy", {{"lost", error.energy_lost}, {"gained", error.energy_gained}, {"put_in", error.energy_put_in}}},
         {"momentum", to_json(error.linear)}, {"angular_momentum", to_json(error.angular)}};
@@ -234,6 +235,14 @@ double ChangeOfResult::error() const
     return std::abs(mean) + (is_seen() ? 0.0 : 2.0 * noise);
 }
 
+std::string describe(const Approach& approach, const std::vector<std::string>& wall_names)
+{
+    const std::string of_both = approach.wall < 0 ? fmt::format("spheres {} and {}", approach.sphere, approach.other)
+                                                  : fmt::format("sphere {} and the wall '{}'", approach.sphere,
+                                                        wall_names[static_cast<std::size_t>(approach.wall)]);
+    return fmt::format("{}, which close at {:.3g} m/s", of_both, approach.speed);
+}
+
 std::string describe(const Incident& incident, const std::vector<std::string>& wall_names)
 {
     if (incident.kind == Incident::Kind::pressed) return describe_press(incident, wall_names);
@@ -258,7 +267,7 @@ std::string incidents_text(const std::vector<Incident>& incidents, const std::ve
 std::string summary_text(const RunSummary& summary)
 {
     const char* status = !summary.incidents.empty() ? "failed" : summary.interrupted ? "interrupted" : "done";
-    Json error = to_json(summary.error);
+    Json error = to_json(summary.error, summary.wall_names);
     error["solver"] = to_json(summary.solver_error);
     error["companions"] = {{"pieces", summary.companion_pieces}, {"length", summary.companion_length}};
     return text_of({{"status", status}, {"touched", summary.touched},

@@ -115,9 +115,9 @@ struct ErrorSummary {
     double mean_overlap = 0.0;       ///< over the overlapping contacts of all steps [d]
     double worst_overlap = 0.0;      ///< [d]
     double worst_overlap_time = 0.0; ///< when that was [s]
-    std::int64_t long_moves = 0;     ///< moves of a sphere by more than 0.1 d in a step
-    std::int64_t split_steps = 0;    ///< that were made in several for the sake of fast spheres
-    std::int64_t most_sub_steps = 1; ///< of a step
+    std::int64_t split_steps = 0;    ///< that were made in several, for two came near each other too fast
+    std::int64_t most_sub_steps = 1; ///< of a step …
+    Approach split_for;              ///< … and for whose sake, if it is more than one
     double cone_violation = 0.0;     ///< worst |λ_t| − μ λ_n [N s]
     std::int64_t corrections = 0;    ///< of pressures (pressure_scaling.hpp) that were asked for; 0 where none scales
     std::int64_t refused_corrections = 0; ///< of them, for energy would have risen
@@ -176,6 +176,9 @@ struct RunSummary {
 
 /// The incident as one sentence, with the sphere's id, its place, its speed and the wall that it touched last.
 std::string describe(const Incident& incident, const std::vector<std::string>& wall_names);
+
+/// "sphere 3 and the wall 'lid', which close at 2.1 m/s".
+std::string describe(const Approach& approach, const std::vector<std::string>& wall_names);
 
 /// The incidents as JSON, a list of what summary.json has of each.
 std::string incidents_text(const std::vector<Incident>& incidents, const std::vector<std::string>& wall_names);

@@ -168,9 +168,9 @@ def error(run):
         told = [one["caution"] for one in quantities.values() if one.get("caution")]
         if told:
             rows.append((f"Spread of {sensor}", told[0]))
-    rows.append(("Moves over 0.1 d in a step", number(found.get("long_moves"))))
     if sub_steps.get("steps"):
-        rows.append(("Steps split", f"{number(sub_steps['steps'])}, into {number(sub_steps['most'])} at most"))
+        asked_by = f", for {sub_steps['asked_by']}" if sub_steps.get("asked_by") else ""
+        rows.append(("Steps split", f"{number(sub_steps['steps'])}, into {number(sub_steps['most'])} at most{asked_by}"))
     return table(rows)
 
 

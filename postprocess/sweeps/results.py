@@ -17,7 +17,7 @@ RUN_COLUMNS = {  # name of a column: where it is in summary.json
     "error_mean_residual": ("error", "residual", "mean"), "error_residual_95": ("error", "residual", "percentile_95"),
     "error_worst_residual": ("error", "residual", "worst"), "error_steps_at_cap": ("error", "residual", "steps_at_cap"),
     "error_mean_overlap_d": ("error", "overlap_d", "mean"), "error_worst_overlap_d": ("error", "overlap_d", "worst"),
-    "error_long_moves": ("error", "long_moves"), "error_energy_gained_J": ("error", "energy", "gained")}
+    "error_split_steps": ("error", "sub_steps", "steps"), "error_energy_gained_J": ("error", "energy", "gained")}
 COST_COLUMNS = {"threads": ("threads",), "wall_s": ("timing", "wall"), "cpu_s": ("timing", "cpu")}
 
 

@@ -454,7 +454,7 @@ StepLength part_of_step(const Model& model, int parts)
 
 StepReport make_part(World& world, int parts)
 {
-    return *advance_once(part_of_step(world.model, parts), infinity, world.state, world.network, world.model, {});
+    return *advance_once(part_of_step(world.model, parts), true, world.state, world.network, world.model, {});
 }
 
 void end_step(World& world, int parts)

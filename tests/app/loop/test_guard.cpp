@@ -118,10 +118,19 @@ from = 0.11
     CHECK(line_of(gone_on.err + "|", "|") == 2); // once
 }
 
-TEST_CASE("spheres that move far in a step are reported once, with the step that would do", "[app][guard]")
+TEST_CASE("steps that are split are reported once, with what asked for it and the step that would do", "[app][guard]")
 {
+    // The bead flies up and down between the table and a lid, 1.1 d in a step.
+    std::string scene = replaced(bead_on_a_table, "velocity = [0.5, 0.0, 0.0]", "velocity = [0.0, 0.0, 5.0]");
+    scene = replaced(scene, "friction = 0.1", "friction = 0.0\nrestitution = 1.0");
+    scene += "[[wall]]\nname = 'lid'\nshape = 'disk'\nmaterial = 'glass'\n"
+             "center = [0.0, 0.0, 0.05]\nnormal = [0.0, 0.0, 1.0]\nradius = 0.03\n";
     const Workplace place;
-    const Outcome outcome = place.run(bead_on_a_table, "--set time.step=0.0022 --until 0.1"); // 0.11 d in a step
-    CHECK_THAT(outcome.err, Contains("over 0.1 d in 10 steps") && Contains("--set time.step="));
+    const Outcome outcome = place.run(scene, "--set time.step=0.0022 --until 0.5");
+    CHECK_THAT(outcome.err,
+        Contains("10 steps have been split") && Contains("sphere 0 and the wall '") && Contains("--set time.step="));
     CHECK(line_of(outcome.err + "|", "|") == 2);
+    const auto summary = nlohmann::json::parse(place.read("out/summary.json"));
+    CHECK(summary["error"]["sub_steps"]["most"] > 1);
+    CHECK_THAT(summary["error"]["sub_steps"]["asked_by"], Contains("sphere 0 and the wall '"));
 }

@@ -30,15 +30,17 @@ std::string said(StepWatch& watch, const StepReport& report, int steps)
 
 } // namespace
 
-TEST_CASE("long moves are reported once, in the tenth step that has them, with a step that would do", "[app][watch]")
+TEST_CASE(
+    "split steps are reported once, in the tenth, with what asked for it and a step that would do", "[app][watch]")
 {
     StepWatch watch;
     StepReport fast;
-    fast.bodies.long_moves = 3;
-    fast.bodies.fastest_speed = 2.7;
+    fast.sub_steps = 2;
+    fast.split_for = {2.7, 4, 7, -1};
     CHECK(said(watch, StepReport(), 1000).empty());
     CHECK(said(watch, fast, 9).empty());
-    CHECK_THAT(said(watch, fast, 1), Contains("--set time.step=0.00037")); // 0.1 d / 2.7 m/s, rounded down
+    // 0.1 d / 2.7 m/s, rounded down
+    CHECK_THAT(said(watch, fast, 1), Contains("spheres 4 and 7") && Contains("--set time.step=0.00037"));
     CHECK(said(watch, fast, 1000).empty());
 }
 
