@@ -129,7 +129,7 @@ TEST_CASE("steps that are split are reported once, with what asked for it and th
     const Outcome outcome = place.run(scene, "--set time.step=0.0022 --until 0.5");
     CHECK_THAT(outcome.err,
         Contains("10 steps have been split") && Contains("sphere 0 and the wall '") && Contains("--set time.step="));
-    CHECK(line_of(outcome.err + "|", "|") == 2);
+    CHECK(outcome.err.find("have been split") == outcome.err.rfind("have been split"));
     const auto summary = nlohmann::json::parse(place.read("out/summary.json"));
     CHECK(summary["error"]["sub_steps"]["most"] > 1);
     CHECK_THAT(summary["error"]["sub_steps"]["asked_by"], Contains("sphere 0 and the wall '"));
