@@ -59,14 +59,14 @@ std::string deepest_now(const Simulation& simulation)
     for_each_loaded_sphere_contact(simulation.network, [&](const Contact& c) {
         if (-c.gap <= deepest) return;
         deepest = -c.gap;
-        who = fmt::format(", now spheres {} and {} most", state.id[c.a], state.id[c.b]);
+        who = name_spheres(state.id[c.a], state.id[c.b]);
     });
     for_each_loaded_wall_contact(simulation.network, [&](const Contact& c) {
         if (-c.gap <= deepest) return;
         deepest = -c.gap;
-        who = fmt::format(", now sphere {} and the wall '{}' most", state.id[c.a], simulation.model.walls[c.b].name);
+        who = name_sphere_and_wall(state.id[c.a], simulation.model.walls[c.b].name);
     });
-    return who;
+    return who.empty() ? "" : fmt::format(", now {} most", who);
 }
 
 } // namespace

@@ -235,12 +235,22 @@ double ChangeOfResult::error() const
     return std::abs(mean) + (is_seen() ? 0.0 : 2.0 * noise);
 }
 
+std::string name_spheres(std::int64_t a, std::int64_t b)
+{
+    return fmt::format("spheres {} and {}", a, b);
+}
+
+std::string name_sphere_and_wall(std::int64_t sphere, const std::string& wall_name)
+{
+    return fmt::format("sphere {} and the wall '{}'", sphere, wall_name);
+}
+
 std::string describe(const Approach& approach, const std::vector<std::string>& wall_names)
 {
-    const std::string of_both = approach.wall < 0 ? fmt::format("spheres {} and {}", approach.sphere, approach.other)
-                                                  : fmt::format("sphere {} and the wall '{}'", approach.sphere,
-                                                        wall_names[static_cast<std::size_t>(approach.wall)]);
-    return fmt::format("{}, which close at {:.3g} m/s", of_both, approach.speed);
+    const std::string both =
+        approach.wall < 0 ? name_spheres(approach.sphere, approach.other)
+                          : name_sphere_and_wall(approach.sphere, wall_names[static_cast<std::size_t>(approach.wall)]);
+    return fmt::format("{}, which close at {:.3g} m/s", both, approach.speed);
 }
 
 std::string describe(const Incident& incident, const std::vector<std::string>& wall_names)

@@ -177,6 +177,11 @@ struct RunSummary {
 /// The incident as one sentence, with the sphere's id, its place, its speed and the wall that it touched last.
 std::string describe(const Incident& incident, const std::vector<std::string>& wall_names);
 
+/// "spheres 3 and 4".
+std::string name_spheres(std::int64_t a, std::int64_t b);
+/// "sphere 3 and the wall 'lid'".
+std::string name_sphere_and_wall(std::int64_t sphere, const std::string& wall_name);
+
 /// "sphere 3 and the wall 'lid', which close at 2.1 m/s".
 std::string describe(const Approach& approach, const std::vector<std::string>& wall_names);
 
