@@ -17,12 +17,34 @@ struct TimeTable {
     static void describe(auto& self, auto&& key)
     {
         key("step", self.step, Allowed{.min = 0.0, .open = true, .names = {"auto"}}, "s",
-            "time step; auto: 0.0072 sqrt(smallest diameter / gravity), and no sphere moves over 0.1 d in a step");
+            "time step; auto: the longest that keeps to [targets]");
         key("duration", self.duration, at_least(0.0), "s", "simulated time");
         key("frame_interval", self.frame_interval, or_infinite(above(0.0)), "s",
             "time between frames for ParaView; inf: first and last only");
         key("metrics_interval", self.metrics_interval, above(0.0), "s",
             "time between samples of the sensors and rows of metrics.csv");
+    }
+};
+
+/// Of these, `auto` is what accuracy picks, or the default.
+struct TargetsTable {
+    NumberOrName overlap = {0.0, "auto"};
+    NumberOrName creep = {0.0, "auto"};
+    NumberOrName approach = {0.0, "auto"};
+
+    static void describe(auto& self, auto&& key)
+    {
+        const Allowed positive{.min = 0.0, .open = true, .names = {"auto"}};
+        key("overlap", self.overlap, positive, "d",
+            "mean overlap of loaded contacts at rest, as far as a stiffness that the scene gives does not make it; "
+            "auto: "
+            "what accuracy picks, else 0.002");
+        key("creep", self.creep, positive, "",
+            "time step by the least number of sweeps, in sqrt(smallest diameter / gravity); auto: what accuracy picks, "
+            "else 0.0036");
+        key("approach", self.approach, positive, "d",
+            "how far surfaces that will touch come nearer to each other in a step, in smallest diameters; auto: what "
+            "accuracy picks, else 0.09");
     }
 };
 
@@ -75,7 +97,7 @@ struct SolverTable {
             "accuracy picks; fine where a sphere has 500 times the mass of another, and with restitution without "
             "gravity");
         key("min_sweeps", self.min_sweeps, between(0, 10000), "",
-            "least number of sweeps in a step; 0: what accuracy picks, else 2 with matched, 3 with projected, 6 where "
+            "least number of sweeps in a step; 0: with matched 2 to 4, more in longer steps; 3 with projected, 6 where "
             "pressures are scaled in a bed of a hundred grains or deeper");
         key("max_sweeps", self.max_sweeps, between(1, 1000000), "",
             "sweeps after which a step goes on unconverged, which is counted and reported");

@@ -17,6 +17,7 @@ struct Scene {
     std::int64_t seed = 1;
     std::string accuracy;
     TimeTable time;
+    TargetsTable targets;
     WorldTable world;
     SolverTable solver;
     OutputTable output;
@@ -35,9 +36,10 @@ struct Scene {
         key("title", self.title, any(), "", "one line on what the scene shows");
         key("seed", self.seed, at_least(0), "", "of all random numbers");
         key("accuracy", self.accuracy, any(), "",
-            "\"1%\": takes the time step, the least number of sweeps and the tolerance from the cheapest setting that "
-            "was no more wrong in any of the studies of tests/studies; empty: the usual setting");
+            "\"1%\": takes the targets of the automatic step and the tolerance from the coarsest setting that keeps "
+            "results to that; empty: the usual setting, 3%");
         key("time", self.time, any(), "", "");
+        key("targets", self.targets, any(), "", "what the automatic step keeps to");
         key("world", self.world, any(), "", "");
         key("solver", self.solver, any(), "", "");
         key("output", self.output, any(), "", "");

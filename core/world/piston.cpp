@@ -2,6 +2,7 @@
 #include "core/world/piston.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace talus
 {
@@ -15,6 +16,13 @@ double Piston::load_at(double time) const
     if (next == load.end()) return load.back().force;
     const LoadPoint& last = *(next - 1);
     return last.force + (time - last.time) / (next->time - last.time) * (next->force - last.force);
+}
+
+double Piston::most_force(const Vec3& gravity) const
+{
+    double most = 0.0;
+    for (const LoadPoint& point : load) most = std::max(most, std::abs(point.force));
+    return most + mass * std::abs(guide.dot(gravity));
 }
 
 Vec3 Piston::free_gain(const Vec3& gravity, double time, double step) const

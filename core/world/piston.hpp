@@ -30,6 +30,9 @@ struct Piston {
     /// The load along the guide [N].
     double load_at(double time) const;
 
+    /// The most that weight and load ever press along the guide, either way [N].
+    double most_force(const Vec3& gravity) const;
+
     /// What gravity and load add to its velocity in a step that begins at this time, where nothing else touches it
     /// [m/s]; along the guide, for the rest is the guide's to carry, as is all of it until the piston is released.
     Vec3 free_gain(const Vec3& gravity, double time, double step) const;

@@ -33,31 +33,39 @@ double share_of(const std::string& text)
     return 0.01 * number;
 }
 
-const scene::MeasuredSetting& cheapest_within(double error, const scene::Scene& scene)
+/// The coarsest whose bound is no larger.
+const scene::MeasuredSetting& coarsest_within(double error, const scene::Scene& scene)
 {
-    const char* law = stabilisation_of(scene.solver) == Stabilisation::matched ? "matched" : "projected";
     double least = infinity;
     for (const scene::MeasuredSetting& measured : scene.measured) {
-        if (measured.stabilisation != law) continue;
-        if (measured.error <= error) return measured;
-        least = std::min(least, measured.error);
+        if (measured.bound <= error) return measured;
+        least = std::min(least, measured.bound);
     }
-    throw SceneError(
-        accuracy_key, "'" + percent(error) + "' is finer than what was measured: " + percent(least) +
-                          " is the least with this stabilisation; 'talus study' finds settings for a scene");
+    throw SceneError(accuracy_key, "'" + percent(error) + "' is finer than what was measured: " + percent(least) +
+                                       " is the least; 'talus study' finds settings for a scene");
 }
 
 std::string described(const RunSetting& setting)
 {
-    char step[40], tolerance[40];
-    std::snprintf(step, sizeof step, "time step x %g", setting.step_factor);
-    std::snprintf(tolerance, sizeof tolerance, "tolerance %g", setting.tolerance);
-    const std::string sweeps =
-        setting.min_sweeps > 0 ? "at least " + std::to_string(setting.min_sweeps) + " sweeps, " : "";
-    return std::string(step) + ", " + sweeps + tolerance;
+    const auto& [overlap, creep, approach] = setting.targets;
+    char line[160];
+    std::snprintf(line, sizeof line, "overlap %g d, approach %g d, creep %g, tolerance %g", overlap, approach, creep,
+        setting.tolerance);
+    return line;
 }
 
-/// What the scene sets itself is not touched.
+/// With the targets that the scene sets itself.
+RunSetting with_own_targets(RunSetting setting, const scene::TargetsTable& own)
+{
+    const auto take = [](double& target, const scene::NumberOrName& value) {
+        if (value.name != "auto") target = value.number;
+    };
+    take(setting.targets.overlap, own.overlap);
+    take(setting.targets.creep, own.creep);
+    take(setting.targets.approach, own.approach);
+    return setting;
+}
+
 std::string left_as_it_is(const scene::Scene& scene)
 {
     std::string keys;
@@ -66,6 +74,9 @@ std::string left_as_it_is(const scene::Scene& scene)
     };
     add(scene.time.step.name != "auto", "time.step");
     add(scene.solver.min_sweeps > 0, "solver.min_sweeps");
+    add(scene.targets.overlap.name != "auto", "targets.overlap");
+    add(scene.targets.creep.name != "auto", "targets.creep");
+    add(scene.targets.approach.name != "auto", "targets.approach");
     add(scene.solver.tolerance.name != "auto", "solver.tolerance");
     return keys.empty() ? "" : "; what the scene sets itself stands: " + keys;
 }
@@ -74,15 +85,12 @@ std::string left_as_it_is(const scene::Scene& scene)
 
 AccuracyChoice choose_accuracy(const scene::Scene& scene)
 {
-    if (scene.accuracy.empty()) return {};
+    if (scene.accuracy.empty()) return {with_own_targets({}, scene.targets), ""};
     const double asked = share_of(scene.accuracy);
-    const scene::MeasuredSetting& measured = cheapest_within(asked, scene);
-    const RunSetting setting = {measured.step_factor, static_cast<int>(measured.min_sweeps), measured.tolerance};
-    char cost[80];
-    std::snprintf(cost, sizeof cost, "; %.2g times the usual cost", measured.cost);
-    return {setting, "accuracy " + percent(asked) + ": " + described(setting) + ", at worst " +
-                         percent(measured.error) + " wrong where it was studied (" + measured.worst + ")" + cost +
-                         left_as_it_is(scene)};
+    const scene::MeasuredSetting& measured = coarsest_within(asked, scene);
+    const RunSetting setting =
+        with_own_targets({{measured.overlap, measured.creep, measured.approach}, measured.tolerance}, scene.targets);
+    return {setting, "accuracy " + percent(asked) + ": " + described(setting) + left_as_it_is(scene)};
 }
 
 } // namespace talus

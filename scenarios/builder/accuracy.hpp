@@ -13,8 +13,8 @@ struct AccuracyChoice {
     std::string explanation; ///< one line; empty where the scene asks for no accuracy
 };
 
-/// The cheapest of the scene's measured settings that has the accuracy which it asks for, with its stabilisation. Where
-/// it asks for none, the usual setting.
+/// The coarsest of the scene's measured settings that has the accuracy which it asks for; where it asks for none, the
+/// usual setting. What the scene sets itself stands.
 /// @throws SceneError where `accuracy` is no percentage, or smaller than what was measured
 AccuracyChoice choose_accuracy(const scene::Scene& scene);
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <set>
 
 namespace talus
 {
@@ -22,15 +21,6 @@ template <class... Numbers> std::string text(const char* format, Numbers... numb
     return buffer;
 }
 
-/// The materials that spheres are made of, now or later.
-std::set<int> sphere_materials(const Simulation& simulation)
-{
-    std::set<int> materials(simulation.state.material.begin(), simulation.state.material.end());
-    for (const auto& pour : simulation.pours)
-        for (const auto& species : pour.mixture.species) materials.insert(species.material);
-    return materials;
-}
-
 } // namespace
 
 std::string explain_step(const StepChoice& choice, double d)
@@ -38,12 +28,19 @@ std::string explain_step(const StepChoice& choice, double d)
     const double automatic = choice.automatic();
     if (choice.given)
         return text("step %.4g ms: given by the scene (auto would be %.4g ms)", 1e3 * choice.step, 1e3 * automatic);
-    if (choice.by_gravity <= choice.by_speed)
-        return text("step %.4g ms = %.3g sqrt(d/g) for the smallest d = %.4g mm (the fastest fall, %.3g m/s, moves "
-                    "%.2g d in it)",
-            1e3 * automatic, choice.gravity_share, 1e3 * d, choice.fastest_speed, choice.fastest_speed * automatic / d);
-    return text("step %.4g ms: the fastest sphere, %.3g m/s, moves 0.1 d in it (%.3g sqrt(d/g) would be %.4g ms)",
-        1e3 * automatic, choice.fastest_speed, choice.gravity_share, 1e3 * choice.by_gravity);
+    const std::pair<double, std::string> targets[] = {
+        {choice.by_approach, text("the approach of what closes at %.3g m/s", choice.closing_speed)},
+        {choice.by_overlap, "the mean overlap of the bed"}, {choice.by_creep, "the creep of a bed at rest"},
+        {choice.by_heavy, "the overlap below its heaviest sphere"}};
+    std::string decides, others;
+    for (const auto& [step, target] : targets)
+        if (step == automatic && decides.empty())
+            decides = target;
+        else if (std::isfinite(step))
+            others += (others.empty() ? "" : ", ") + target + text(" %.4g ms", 1e3 * step);
+    return text("step %.4g ms with %d sweeps at least, for %s (smallest d = %.4g mm)%s", 1e3 * automatic,
+               choice.min_sweeps, decides.c_str(), 1e3 * d, others.empty() ? "" : "; would allow: ") +
+           others;
 }
 
 std::string explain_model(const Model& model)
@@ -85,7 +82,7 @@ std::string explain_world(const Box& world)
     return bounds + ", in m";
 }
 
-std::string forecast_overlap(const Simulation& simulation)
+std::string forecast_overlap(const Simulation& simulation, const Bed& bed)
 {
     const auto& model = simulation.model;
     if (model.solver.stabilisation == Stabilisation::projected)
@@ -100,10 +97,10 @@ std::string forecast_overlap(const Simulation& simulation)
     }
     const double inverse_mass_sum = 2.0 / (density * std::numbers::pi / 6.0 * d * d * d);
     stiffness = std::min(stiffness, 4.0 * upsilon / (sigma_per_sweep / n * inverse_mass_sum * h * h));
-    const double of_layer = 0.4 * model.gravity.norm() * h * h / (n * d);
-    return text("contacts of two spheres are at most %.3g N/m stiff; a bed Z diameters high overlaps by %.2g Z d on "
-                "average, twice that at its bottom",
-        stiffness, of_layer);
+    const double of_layer = 0.45 * model.gravity.norm() * h * h / (n * d), depth = bed.borne_depth();
+    return text("contacts of two spheres are at most %.3g N/m stiff: a bed of a depth Z overlaps by %.2g Z on average, "
+                "twice that at its bottom; with the %.3g d whose weight this one may bear by %.2g %% d",
+        stiffness, of_layer, depth, 100.0 * of_layer * depth);
 }
 
 std::vector<std::string> warnings_of(const scene::Scene& scene, const StepChoice& choice, const Model& model)

@@ -31,8 +31,8 @@ std::string explain_model(const Model& model);
 std::string explain_world(const Box& world);
 
 /// How soft `matched` makes contacts, k = 2.2 N_min/(W h²), and what overlap the bed will have for it, mean/d ≈
-/// 0.4 Z g h²/(N_min d), Z its height in diameters.
-std::string forecast_overlap(const Simulation& simulation);
+/// 0.45 Z g h²/(N_min d), Z the depth whose weight it bears, in diameters.
+std::string forecast_overlap(const Simulation& simulation, const Bed& bed);
 
 /// A step far above the automatic one, lattices that will stand as they are laid, walls far larger than the spheres,
 /// and what meshes leave out.

@@ -104,15 +104,17 @@ BuiltScene build_scene(const scene::Scene& scene)
     simulation.state.pistons.resize(model.pistons.size());
 
     // The spheres decide what the scene leaves open of the solver and the step.
-    const SolverChoice choice = complete_solver(solver, scene, simulation);
+    const Bed bed = measure_bed(simulation);
+    const SolverChoice choice = complete_solver(solver, scene, simulation, bed.measures);
     model.solver = choice.settings;
-    const StepChoice step = choose_step(scene, simulation, accuracy.setting.step_factor * choice.step_factor);
+    const StepChoice step = choose_step(scene, simulation, bed, accuracy.setting.targets);
     model.time_step = step.step;
+    model.solver.min_sweeps = step.min_sweeps;
     model.speed_limit = step.speed_limit;
     model.solver.push_out_speed = push_out_speed(scene.solver, model);
 
     BuildReport report{accuracy.explanation, choice.explanation, explain_step(step, model.min_diameter),
-        explain_model(model), explain_world(model.world), forecast_overlap(simulation),
+        explain_model(model), explain_world(model.world), forecast_overlap(simulation, bed),
         warnings_of(scene, step, model)};
     return {std::move(simulation), std::move(report), std::move(output)};
 }

@@ -11,7 +11,7 @@ namespace talus
 namespace
 {
 
-constexpr int tries = 2000; ///< places tried for the centre of one sphere
+constexpr int centers_tried = 2000; ///< places tried for the centre of one sphere
 constexpr int most_sweeps = 4000;
 constexpr double margin = 1e-3; ///< by which radii are larger while spheres are pushed apart, so that they end clear
 /// Pushes are so many times the overlap, as in successive over-relaxation: with 1 three to six times as many sweeps
@@ -134,7 +134,7 @@ std::vector<PackedSphere> dense_packing(const PackingRoom& room, const Mixture& 
         const Grain grain = mixture.draw(random);
         const double radius = 0.5 * grain.diameter;
         std::optional<Vec3> center;
-        for (int k = 0; k < tries && !center; ++k) {
+        for (int k = 0; k < centers_tried && !center; ++k) {
             center = room.region().random_point(random, radius);
             if (center && !room.holds(*center, 0.0)) center.reset();
         }

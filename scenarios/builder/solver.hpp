@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/simulation/simulation.hpp"
-#include "scenarios/scene.hpp"
+#include "scenarios/builder/step_choice.hpp"
 
 #include <string>
 
@@ -11,16 +10,14 @@ namespace talus
 
 /// What decides how wrong a run is, and how long it takes.
 struct RunSetting {
-    double step_factor = 1.0; ///< on the time step that gravity allows (step_choice.hpp)
-    int min_sweeps = 0;       ///< 0: the usual number
+    StepTargets targets;
     double tolerance = 1e-2;
 };
 
 /// The settings, and why they are not the usual ones.
 struct SolverChoice {
     SolverSettings settings;
-    double step_factor = 1.0; ///< on the automatic step
-    std::string explanation;  ///< one line; empty where they are
+    std::string explanation; ///< one line; empty where they are
 };
 
 /// The law that a scene names; where it leaves it open, the usual one.
@@ -36,14 +33,14 @@ SolverSettings build_solver(const scene::SolverTable& table, const RunSetting& s
 ///
 /// Where spheres stand 150 mean diameters high, or one has 50 000 times the mass of another, contacts are rigid if
 /// nothing flows or moves as prescribed. Where one has 500 times the mass of another, or there is restitution and no
-/// gravity, the tolerance is 1e-3; from 800 times on the step is smaller. Not so where the scene says what it wants, or
-/// asks for an accuracy.
+/// gravity, the tolerance is 1e-3. Not so where the scene says what it wants, or asks for an accuracy.
 ///
 /// Pressure is scaled with `projected` in a bed of forty grains or more, or where something rests on grains of a tenth
 /// of its mass or less; where no axis is periodic. Beds of a hundred grains or more then take at least six sweeps a
 /// step, unless the scene says how many.
-/// @param simulation its spheres are there, and its model has all but the solver
-SolverChoice complete_solver(SolverSettings solver, const scene::Scene& scene, const Simulation& simulation);
+/// @param simulation its spheres are there, and its model has all but solver and step
+SolverChoice complete_solver(
+    SolverSettings solver, const scene::Scene& scene, const Simulation& simulation, const BedMeasures& bed);
 
 /// The cap on the speed with which overlap is undone: the scene's, or what follows from gravity, or else from the step.
 double push_out_speed(const scene::SolverTable& table, const Model& model);

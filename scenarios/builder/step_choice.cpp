@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/builder/step_choice.hpp"
 
+#include "core/law/thresholds.hpp"
+#include "scenarios/builder/closing_speed.hpp"
 #include "scenarios/scene_error.hpp"
 
 #include <algorithm>
@@ -12,155 +14,95 @@ namespace talus
 namespace
 {
 
-constexpr double gravity_share = 0.0072; ///< h / √(d/g); 0.003 is fine, above 0.016 only if the scene insists
-constexpr double longest_move = 0.1;     ///< diameters in a step
-constexpr double beyond_sense = 10.0;    ///< times as fast as anything should come to be
-constexpr double level = 0.99;           ///< cosine of the steepest plane on which spheres come to rest for sure
+constexpr double overlap_of_layer = 0.45; ///< h² gravity/N_min, for each diameter of depth (measured)
+constexpr int most_sweeps = 4;            ///< with longer steps slow impacts no longer give back what they should (P4)
+constexpr double rigid_step = 0.0072;     ///< h / √(d/gravity) with `projected`, where more sweeps are no help
+constexpr double borne_step = 0.0072;     ///< with two sweeps, below a sphere of `borne_ratio` times the mass
+constexpr double borne_ratio = 800.0;     ///< grains overlap by 0.02 d (measured)
+constexpr double beyond_sense = 10.0;     ///< times as fast as anything should come to be
 
-/// The lowest point of the world, which may be open upwards.
-double lowest_corner(const Box& world, const Vec3& up)
-{
-    double height = 0.0;
-    for (int d = 0; d < 3; ++d)
-        if (up[d] != 0.0) height += up[d] * (up[d] > 0.0 ? world.min[d] : world.max[d]);
-    return height;
-}
+/// Of a mean sphere of the lightest material: what a bed of depth Z presses on each of its contacts, and how much of
+/// the softness that a step brings its materials have anyway.
+struct Softness {
+    double load = 0.0;  ///< mean overlap by h²/N_min [m/s²]
+    double given = 0.0; ///< h²/N_min at which the law is as stiff as the stiffest pair of materials [s²]
 
-/// How far a sphere can fall: along gravity through everything that bounds the scene.
-double fall_height(const Simulation& simulation)
-{
-    const auto& model = simulation.model;
-    if (model.gravity.isZero()) return 0.0;
-    const Vec3 up = model.up();
-    double highest = -infinity, lowest = infinity;
-    const auto span = [&](const Box& box) {
-        const double middle = box.center().dot(up), half = 0.5 * box.extent().dot(up.cwiseAbs());
-        lowest = std::min(lowest, middle - half);
-        return middle + half;
-    };
-    for (const auto& pour : simulation.pours) highest = std::max(highest, span(pour.region.bounds()));
-    Box spheres;
-    for (std::size_t i = 0; i < simulation.state.count(); ++i)
-        spheres.extend(
-            Box{simulation.state.position[i], simulation.state.position[i]}.grown(simulation.state.radius[i]));
-    if (!spheres.empty()) highest = std::max(highest, span(spheres));
-    bool floor = !model.outlets.empty(), slope = false;
-    for (const auto& wall : model.walls) {
-        const auto* plane = std::get_if<Plane>(&wall.shape);
-        if (!plane) {
-            // Where it stands at the start: what falls behind one that sinks meets it at twice its own speed at most.
-            span(bounds(wall.shape));
-            floor = true;
-        } else if (plane->normal.dot(up) > level) {
-            lowest = std::min(lowest, plane->point.dot(up));
-            floor = true;
-        } else {
-            slope = slope || plane->normal.dot(up) > 0.0;
+    Softness(const Simulation& simulation, const Bed& bed)
+    {
+        const Model& model = simulation.model;
+        const double d = model.mean_diameter;
+        double density = infinity, stiffness = 0.0;
+        for (const int a : sphere_materials(simulation)) {
+            density = std::min(density, model.materials.list[static_cast<std::size_t>(a)].density);
+            for (const int b : sphere_materials(simulation))
+                stiffness = std::max(stiffness, model.materials.between(a, b).stiffness);
         }
+        load = overlap_of_layer * ((model.gravity.norm() + bed.wall_acceleration) * bed.borne_depth() +
+                                      2.0 * bed.surcharge / (packed_share * density * d));
+        const double inverse_mass_sum = 2.0 / (density * std::numbers::pi / 6.0 * d * d * d);
+        given = 4.0 * upsilon / (sigma_per_sweep * inverse_mass_sum * stiffness);
     }
-    // Nothing is there to land on, or it leads on downwards: the fall ends where the world does.
-    if (!floor || slope) lowest = std::min(lowest, lowest_corner(model.world, up));
-    // A sphere is free to fall until it enters an outlet, from above.
-    for (const auto& outlet : model.outlets) {
-        const Box box = outlet.bounds();
-        lowest = std::min(lowest, box.center().dot(up) + 0.5 * box.extent().dot(up.cwiseAbs()));
-    }
-    return std::max(0.0, highest - lowest);
-}
+};
 
-/// The fastest that a part of a motion ever moves a point of the box [m/s].
-double top_speed(const Translation& part, const Box&)
-{
-    return part.velocity.norm();
-}
-
-double top_speed(const Turning& part, const Box& box)
-{
-    double arm = 0.0;
-    for (const Vec3& x : box.corners()) arm = std::max(arm, part.axis.cross(x - part.point).norm());
-    return std::abs(part.rate) * arm;
-}
-
-double top_speed(const Shaking& part, const Box&)
-{
-    return 2.0 * std::numbers::pi * part.frequency * part.amplitude.norm();
-}
-
-double top_speed(const Course& part, const Box&)
-{
-    double fastest = 0.0;
-    for (std::size_t k = 1; k < part.waypoints.size(); ++k) {
-        const auto &from = part.waypoints[k - 1], &to = part.waypoints[k];
-        fastest = std::max(fastest, (to.shift - from.shift).norm() / (to.time - from.time));
-    }
-    return fastest;
-}
-
-/// The most that any part of a wall's motion ever does, as far as the wall lies where spheres may be [m/s]. Parts that
-/// go on at the same time are not added up: a step in which something is faster than this is split.
-double fastest_wall(const Simulation& simulation)
-{
-    Box spheres;
-    for (const Vec3& x : simulation.state.position) spheres.extend(x);
-    for (const auto& pour : simulation.pours) spheres.extend(pour.region.bounds());
-    double fastest = 0.0;
-    for (const auto& wall : simulation.model.walls) {
-        // A plane is looked at where the spheres are, any other wall at the corners of its box.
-        const Box own = bounds(wall.shape);
-        const Box& box = own.empty() ? spheres : own;
-        if (box.empty()) continue;
-        for (const auto& part : wall.motion)
-            fastest = std::max(fastest, std::visit([&](const auto& p) { return top_speed(p, box); }, part));
-    }
-    return fastest;
-}
-
-/// What a piston would have if all it weighs and bears drove it across the whole scene [m/s].
-double fastest_piston(const Simulation& simulation)
+/// The longest steps that keep to each target, with so many sweeps at least.
+StepChoice longest_with(
+    int sweeps, const Simulation& simulation, const Bed& bed, double closing_speed, const StepTargets& targets)
 {
     const Model& model = simulation.model;
-    Box scene;
-    for (const Wall& wall : model.walls) scene.extend(bounds(wall.shape));
-    for (const Vec3& x : simulation.state.position) scene.extend(x);
-    double fastest = 0.0;
-    for (const Piston& piston : model.pistons) {
-        double load = 0.0;
-        for (const LoadPoint& point : piston.load) load = std::max(load, std::abs(point.force));
-        const double gain = std::abs(piston.guide.dot(model.gravity)) + load / piston.mass;
-        fastest = std::max(fastest, std::sqrt(2.0 * gain * scene.extent().dot(piston.guide.cwiseAbs())));
-    }
-    return fastest;
+    const Softness softness(simulation, bed);
+    const double d = model.min_diameter, time_of_fall = std::sqrt(d / model.gravity.norm());
+    const bool soft = model.solver.stabilisation == Stabilisation::matched;
+    const double borne = borne_step * std::sqrt(std::cbrt(borne_ratio / bed.measures.mass_ratio));
+    StepChoice choice;
+    choice.min_sweeps = sweeps;
+    choice.closing_speed = closing_speed;
+    choice.by_approach = targets.approach * d / closing_speed;
+    choice.by_heavy = borne * time_of_fall * std::sqrt(soft ? 0.5 * sweeps : 1.0);
+    choice.by_creep = (soft ? std::min(sweeps, most_sweeps) * targets.creep : rigid_step) * time_of_fall;
+    if (soft)
+        choice.by_overlap =
+            std::sqrt(sweeps * (targets.overlap * model.mean_diameter / softness.load + softness.given));
+    return choice;
 }
 
-double fastest_speed(const Simulation& simulation)
+/// The sweeps that keep the creep of a given step.
+int sweeps_for(double step, const Model& model, const StepTargets& targets)
 {
-    double start = 0.0;
-    for (const auto& m : simulation.state.bodies) start = std::max({start, m.velocity.norm(), m.rim_velocity.norm()});
-    for (const auto& pour : simulation.pours) start = std::max(start, pour.velocity.norm());
-    const double fall_gravity = std::abs(simulation.model.gravity.dot(simulation.model.up()));
-    return std::sqrt(start * start + 2.0 * fall_gravity * fall_height(simulation)) + fastest_wall(simulation);
+    if (model.solver.stabilisation == Stabilisation::projected) return model.solver.min_sweeps;
+    const double sweeps = step / targets.creep * std::sqrt(model.gravity.norm() / model.min_diameter);
+    const int most = std::min(most_sweeps, model.solver.max_sweeps);
+    return static_cast<int>(std::clamp(std::ceil(sweeps), std::min<double>(model.solver.min_sweeps, most), 1.0 * most));
+}
+
+/// With as few sweeps as go with the longest step that any number allows.
+StepChoice automatic_choice(const scene::Scene& scene, const Simulation& simulation, const Bed& bed,
+    double closing_speed, const StepTargets& targets)
+{
+    const SolverSettings& solver = simulation.model.solver;
+    const auto with = [&](int n) { return longest_with(n, simulation, bed, closing_speed, targets); };
+    if (scene.solver.min_sweeps > 0 || solver.stabilisation == Stabilisation::projected) return with(solver.min_sweeps);
+    StepChoice best = with(solver.min_sweeps);
+    for (int n = solver.min_sweeps + 1; n <= std::min(most_sweeps, solver.max_sweeps); ++n)
+        if (const StepChoice longer = with(n); longer.automatic() > best.automatic()) best = longer;
+    return best;
 }
 
 } // namespace
 
-StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation, double factor)
+StepChoice choose_step(
+    const scene::Scene& scene, const Simulation& simulation, const Bed& bed, const StepTargets& targets)
 {
-    const auto& model = simulation.model;
-    StepChoice choice;
-    const double fastest = fastest_speed(simulation), piston = fastest_piston(simulation);
-    // With gravity pistons are too fast for its step for moments only, in which steps are split; without, one may be
-    // all that moves.
-    choice.fastest_speed = model.gravity.isZero() ? fastest + piston : fastest;
-    choice.gravity_share = factor * gravity_share;
-    choice.by_gravity = choice.gravity_share * std::sqrt(model.min_diameter / model.gravity.norm());
-    choice.by_speed = longest_move * model.min_diameter / choice.fastest_speed;
+    const Model& model = simulation.model;
+    const SceneSpeeds speeds = scene_speeds(simulation, bed);
+    StepChoice choice = automatic_choice(scene, simulation, bed, speeds.closing, targets);
     choice.given = scene.time.step.name != "auto";
     choice.step = choice.given ? scene.time.step.number : choice.automatic();
     if (!std::isfinite(choice.step))
         throw SceneError("time.step", "without gravity and speeds there is no automatic step: give one in seconds");
     if (scene.time.duration > 0.0 && choice.step > scene.time.duration)
         throw SceneError("time.step", "the step is longer than the run, 'duration'");
-    choice.speed_limit = beyond_sense * (fastest + piston) + model.min_diameter / choice.step;
+    if (choice.given && scene.solver.min_sweeps == 0) choice.min_sweeps = sweeps_for(choice.step, model, targets);
+    choice.speed_limit = beyond_sense * speeds.highest + model.min_diameter / choice.step;
     return choice;
 }
 

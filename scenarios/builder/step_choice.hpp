@@ -2,31 +2,43 @@
 #pragma once
 
 #include "core/simulation/simulation.hpp"
+#include "scenarios/builder/bed.hpp"
 #include "scenarios/scene.hpp"
 
-#include <algorithm>
+#include <string>
 
 namespace talus
 {
 
-/// The step of a run, and what it was chosen from.
-struct StepChoice {
-    double step = 0.0;          ///< h [s]
-    bool given = false;         ///< by the scene
-    double gravity_share = 0.0; ///< of √(d_min/gravity) in `by_gravity`
-    double by_gravity = 0.0;    ///< the longest step that gravity allows; without gravity infinite [s]
-    double by_speed = 0.0;      ///< the longest in which the fastest sphere moves 0.1 d_min [s]
-    double fastest_speed =
-        0.0; ///< that the scene can produce: starts, inlets, walls, the longest fall; pistons without gravity [m/s]
-    double speed_limit = 0.0; ///< what is faster is a blow-up [m/s]
-
-    double automatic() const { return std::min(by_gravity, by_speed); }
+/// What the automatic step keeps to. METHOD ("The length of the step") says what holds the defaults.
+struct StepTargets {
+    double overlap = 0.002; ///< mean of loaded contacts, of what the law's own softness makes [d]
+    double creep = 0.0036;  ///< h by a sweep, of those that a step makes at least [sqrt(d/gravity)]
+    double approach = 0.09;  ///< how far two surfaces that will touch come nearer in a step [d]
 };
 
-/// The step of the scene: the one given, or h = 0.0072 √(d_min/gravity) times the factor, and no longer than the time
-/// in which the fastest sphere moves 0.1 d_min. Without gravity the speeds alone decide.
-/// @param simulation its spheres are there; @param factor what an accuracy asks for
+/// The step of a run, and what it was chosen from.
+struct StepChoice {
+    double step = 0.0;            ///< h [s]
+    bool given = false;           ///< by the scene
+    int min_sweeps = 0;           ///< that go with it
+    double by_overlap = infinity; ///< the longest step that keeps to each target, with the sweeps that go with it [s]
+    double by_creep = infinity;
+    double by_approach = infinity;
+    double by_heavy = infinity; ///< that keeps what lies below the heaviest sphere from overlapping by 0.02 d [s]
+    double closing_speed = 0.0; ///< of surfaces that will touch, at most [m/s]
+    double speed_limit = 0.0;   ///< what is faster is a blow-up [m/s]
+
+    double automatic() const { return std::min({by_overlap, by_creep, by_approach, by_heavy}); }
+};
+
+/// The step of the scene, the one given or the longest that keeps to the targets, and the sweeps that it needs, N_min.
+///
+/// With `matched` a bed of depth Z overlaps by 0.45 h² gravity Z/N_min on average; a load takes sweeps to go through
+/// it. So N_min grows as the step, from 2 up to 4, unless the scene gives it.
+/// @param simulation its spheres are there, and its model has its solver
 /// @throws SceneError where neither gravity nor a speed gives a step
-StepChoice choose_step(const scene::Scene& scene, const Simulation& simulation, double factor = 1.0);
+StepChoice choose_step(
+    const scene::Scene& scene, const Simulation& simulation, const Bed& bed, const StepTargets& targets = {});
 
 } // namespace talus

@@ -67,7 +67,7 @@ TEST_CASE("check says what a scene holds and needs, and writes nothing", "[app][
                                 Contains("'tray'               0.05 x 0.05 x 0.05 m = 5 x 5 x 5 d; x 0 to 0.05") &&
                                 Contains("world: x from -0.05 to 0.1, y from -0.05 to 0.1, z from -0.05 up, in m") &&
                                 Contains("overlaps at the start: none"));
-    CHECK_THAT(outcome.out, Contains("memory: about") && Contains("disk: up to") && Contains("time: 436 steps; "));
+    CHECK_THAT(outcome.out, Contains("memory: about") && Contains("disk: up to") && Contains("time: 218 steps; "));
     CHECK_THAT(outcome.out, !Contains("duration = "));
     CHECK_FALSE(place.exists("out"));
     const Outcome resolved = place.talus("check scene.toml --until 0.1 --resolved");

@@ -19,7 +19,9 @@ import numpy
 ROOT = Path(__file__).resolve().parents[2]
 GRAVITY = 9.81
 
-# Overrides, and how long; what settles first, the first three tenths, is not looked at.
+USUAL_STEP = 0.0072  # √(d/g), to whose time sweeps are counted, whatever the step
+
+# Overrides, and how long; what settles first, the first three tenths, counts for what lands alone.
 FLOWS = {"hopper": ({"fill.0.count": 1500, "wall.gate.remove_at": 0.3}, 0.8), "drum": ({"fill.0.count": 800}, 0.6),
          "pile_plain": ({}, 1.5), "vibrated_bed": ({}, 0.6)}
 SETTLING = 0.3
@@ -57,18 +59,20 @@ def mean_diameter(simulation):
 
 
 def flow(talus, name, law, seed):
-    """Mean overlap and worst of a step, means over steps [d], and sweeps."""
+    """Mean overlap [d], the worst at all [d], sweeps in the time of a usual step, and how many steps were split."""
     overrides, duration = FLOWS[name]
     simulation = talus.Simulation(str(ROOT / f"scenarios/{name}.toml"),
                                   {**overrides, "solver.stabilisation": law, "seed": seed}, threads=1)
-    simulation.run(until=SETTLING * duration)
     rows = []
     while simulation.time < duration:
         report = simulation.step()
-        rows.append((report.mean_overlap, report.worst_overlap, report.sweeps))
-    overlap, worst, sweeps = numpy.mean(rows, axis=0)
+        rows.append((simulation.time, report.mean_overlap, report.worst_overlap, report.sweeps, report.sub_steps > 1))
+    time, overlap, worst, sweeps, split = numpy.array(rows).T
+    flowing = time > SETTLING * duration
     d = mean_diameter(simulation)
-    return {"overlap": overlap / d, "worst": worst / d, "sweeps": sweeps}
+    steps = USUAL_STEP * math.sqrt(2 * simulation.radii().min() / GRAVITY) / simulation.step_length
+    return {"overlap": overlap[flowing].mean() / d, "worst": worst.max() / d, "sweeps": sweeps[flowing].mean() * steps,
+            "split": split.sum()}
 
 
 def energy_without_rattlers(simulation):

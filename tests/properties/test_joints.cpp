@@ -179,9 +179,10 @@ struct Run {
     Stabilisation law = Stabilisation::matched;
     double e = 0.0, friction = 0.0, speed = 1.0;
     bool rolls = false;
-    double angle = 0.0; ///< of the way with x, from −80 to 80 degrees [rad]
-    double start = 0.0; ///< on x, before the joint [m]
-    double aside = 0.0; ///< along y, where it crosses the joint [m]
+    double angle = 0.0;      ///< of the way with x, from −80 to 80 degrees [rad]
+    double swing = infinity; ///< across the pipe that it runs in [m/s]
+    double start = 0.0;      ///< on x, before the joint [m]
+    double aside = 0.0;      ///< along y, where it crosses the joint [m]
     Turn turn = Turn::Identity();
     Vec3 shift = Vec3::Zero();
 };
@@ -238,7 +239,7 @@ Ride ride(const Floor& floor, const Run& run, bool from_middle = false, double s
     if (from_middle) begin.y() = 0.0;
     const Vec3 spin = run.rolls ? Vec3(Vec3::UnitZ().cross(way) * run.speed / standard_radius) : Vec3::Zero();
     world.add_sphere(run.turn * begin + run.shift, run.speed * (run.turn * way), run.turn * spin);
-    set_as_a_scene(world, run.law);
+    set_as_a_scene(world, run.law, run.swing);
     if (step > 0.0) world.model.time_step = step;
     Ride ride;
     ride.step = world.model.time_step;
@@ -283,6 +284,7 @@ Fault pipe_joint(Draw& draw)
     const double swing = std::sqrt(draw.uniform(0, 3) * standard_gravity * (radius - standard_radius));
     run.angle = draw.chance(0.3) ? 0.0 : draw.sign() * std::asin(std::min(0.3, swing / run.speed));
     run.aside = 0.0;
+    if (run.angle != 0.0) run.swing = run.speed * std::abs(std::sin(run.angle));
     const Vec3 axis = Vec3::UnitX();
     const auto pipe = [&](double from, double to) { return Cylinder{Vec3(from, 0, radius), axis, radius, to - from}; };
     const Floor lengths{"", {pipe(-half, 0), pipe(0, half)}}, whole{"", {pipe(-half, half)}};

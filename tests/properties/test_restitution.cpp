@@ -135,7 +135,7 @@ Fault cradle(Draw& draw)
         widest = std::max(widest, gap);
         x += d + (k == moving - 1 ? draw.uniform(0.1, 0.6) * d : gap);
     }
-    set_as_a_scene(world, law);
+    set_as_a_scene(world, law, speed);
     const double weight = world.mass() * standard_gravity;
     if (squeeze > 0.0) {
         world.state.own_force.assign(static_cast<std::size_t>(n), Vec3::Zero());
@@ -299,7 +299,7 @@ double rebound(const Drop& drop, double e)
     const double height = drop.speed * drop.speed / (2 * standard_gravity);
     const std::int64_t id = world.add_sphere(Vec3(0, 0, drop.beads * d + r + height + 2 * d), Vec3::Zero(),
         Vec3::Zero(), r, standard_density * drop.ratio / std::pow(size, 3));
-    set_as_a_scene(world, drop.law);
+    set_as_a_scene(world, drop.law, drop.speed);
     const double h = world.model.time_step;
     // The beads come to rest while it is still high above them; then it is let go nearer to them.
     world.step(150);

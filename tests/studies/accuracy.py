@@ -1,23 +1,24 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes scenarios/accuracy/settings.toml, which accuracy chooses from, from what the studies found.
+"""Writes tests/studies/results/accuracy.md: whether results keep to what each accuracy promises, in what the studies found.
 
     tests/studies/accuracy.py
 
-For each setting that is offered: its worst error over the studies of results/, rounded up to a hundredth of a per cent,
-and the geometric mean of its cost by that of the usual setting with matched. Which errors count stands in README.md.
+A result is a flow, an angle or a mean force. Its error is what it differs by from the reference, as far as that stands
+out from chance (95 %). Exit codes: 0 all are kept, or not measured yet; 1 one is not.
 """
 import csv
+import json
 import math
+import sys
+import tomllib
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-TARGET = HERE.parents[1] / "scenarios" / "accuracy" / "settings.toml"
-
-# As the studies call them: with each stabilisation from the cheapest to the dearest, each more accurate than the one before.
-OFFERED = ("matched, step=x4", "matched, step=x2", "matched, tolerance=draft", "matched, min_sweeps=4", "matched, min_sweeps=10",
-           "projected, step=x4", "projected, step=x2", "projected", "projected, step=x0.5")
-TOLERANCES = {"draft": 5e-2, "standard": 1e-2, "fine": 1e-3}
+RESULTS = HERE / "results"
+SETTINGS = HERE.parents[1] / "scenarios/accuracy/settings.toml"
+KINDS = ("mass_flow", "angle", "force_x", "force_y", "force_z")
+LAWS = ("matched", "projected")
 
 
 def read_table(path):
@@ -26,53 +27,55 @@ def read_table(path):
 
 
 def row_of(table, setting):
-    """Where a setting came to the same run as another, that other's row."""
-    row = table[setting]
+    """Where a setting came to the same run as another, that other's row; None where it was not run to its end."""
+    row = table.get(setting)
     same = "the same run as "
-    return row_of(table, row["status"].removeprefix(same)) if row["status"].startswith(same) else row
+    if row and row["status"].startswith(same):
+        return row_of(table, row["status"].removeprefix(same))
+    return row if row and row["status"] == "done" else None
 
 
-def number(row, column):
-    return float(row.get(column) or math.nan)
-
-
-def errors_in(study, row):
-    """The errors that accuracy is about, by name; of a flow or an angle what stands out from chance (95 %)."""
-    names = ["velocity_error", "overlap_95"] + (["creep"] if study.startswith("column") or study == "imported_pile" else [])
-    errors = {name: number(row, name) for name in names}
-    for sensor in ("outlet_mass_flow", "heap_angle"):
-        errors[sensor] = number(row, sensor) - 1.96 * number(row, f"{sensor}_spread")
-    return {name: error for name, error in errors.items() if math.isfinite(error)}
+def errors_in(row):
+    """Of the results that several seeds tell from chance, by name."""
+    errors = {}
+    for name in row:
+        spread = row.get(f"{name}_spread")
+        if name.endswith(KINDS) and spread and row[name] and float(spread) > 0:
+            errors[name] = max(0.0, float(row[name]) - 1.96 * float(spread))
+    return errors
 
 
 def measured(setting, studies):
-    """The worst error of a setting, which that is, and what it costs."""
-    worst, costs = (0.0, ""), []
+    """The worst error of a setting, where that is, and the geometric mean of its cost by that of the usual one; None where
+    no study has it."""
+    worst, costs = (0.0, "nothing"), []
     for study, table in studies.items():
-        row = row_of(table, setting)
-        if row["status"] != "done":
-            raise SystemExit(f"accuracy.py: '{setting}' did not come to its end in {study}: {row['status']}")
-        costs.append(math.log(number(row, "cpu_s_per_s") / number(row_of(table, "matched"), "cpu_s_per_s")))
-        worst = max(worst, *((error, f"{name} of {study}") for name, error in errors_in(study, row).items()))
-    return *worst, math.exp(sum(costs) / len(costs))
-
-
-def table_of(setting, studies):
-    """A setting and what was measured, as a table of TOML."""
-    stabilisation, *changes = setting.split(", ")
-    keys = dict(change.split("=") for change in changes)
-    error, worst, cost = measured(setting, studies)
-    lines = {"stabilisation": f'"{stabilisation}"', "step_factor": float(keys.get("step", "x1")[1:]), "min_sweeps": int(keys.get("min_sweeps", 0)),
-             "tolerance": TOLERANCES[keys.get("tolerance", "standard")], "error": math.ceil(1e4 * error) / 1e4, "worst": f'"{worst}"', "cost": f"{cost:.3g}"}
-    return "\n[[setting]]\n" + "".join(f"{key} = {value}\n" for key, value in lines.items())
+        row, usual = row_of(table, setting), row_of(table, "matched")
+        if row and usual:
+            costs.append(math.log(float(row["cpu_s_per_s"]) / float(usual["cpu_s_per_s"])))
+            worst = max([worst, *((error, f"{name} of {study}") for name, error in errors_in(row).items())])
+    return (*worst, math.exp(sum(costs) / len(costs))) if costs else None
 
 
 def main():
-    studies = {path.stem: read_table(path) for path in sorted((HERE / "results").glob("*.csv"))}
-    head = "# What accuracy chooses from, written by tests/studies/accuracy.py from the results of the studies there.\n"
-    TARGET.parent.mkdir(exist_ok=True)
-    TARGET.write_text(head + "".join(table_of(setting, studies) for setting in OFFERED), encoding="utf-8")
+    # Of the others it is not known of which program they are: they are older than the targets.
+    dated = json.loads((RESULTS / "measured.json").read_text()) if (RESULTS / "measured.json").is_file() else {}
+    studies = {path.stem: read_table(path) for path in sorted(RESULTS.glob("*.csv")) if path.stem in dated}
+    bounds = [setting["bound"] for setting in tomllib.loads(SETTINGS.read_text(encoding="utf-8"))["setting"]]
+    lines, kept = [], True
+    for law in LAWS:
+        for bound in bounds:
+            setting = law if bound == bounds[1] else f"{law}, accuracy={100 * bound:g}%"
+            found = measured(setting, studies)
+            kept = kept and (found is None or found[0] <= bound)
+            lines.append(f"| {100 * bound:g} % | {law} | " + ("not measured | | |" if found is None else
+                         f"{100 * found[0]:.2g} % | {found[1]} | {found[2]:.2g} |"))
+    (RESULTS / "accuracy.md").write_text(
+        "# What each accuracy promises, and what the studies found\n\nWritten by `tests/studies/accuracy.py` from the tables"
+        " beside it.\n\n| accuracy | stabilisation | worst error of a result beyond chance | where | CPU time by that of the"
+        " usual setting |\n| --- | --- | --- | --- | --- |\n" + "\n".join(lines) + "\n", encoding="utf-8")
+    return 0 if kept else 1
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -152,7 +152,7 @@ TEST_CASE("half the step changes the overlap of a sphere at rest to a quarter", 
     // depend on the step, nor do tolerances matter.
     const Workplace place;
     const double h = GENERATE(2e-4, 2e-3);
-    OpenedScene opened = open(place, one_bead(0.0), {fmt::format("time.step={}", h)});
+    OpenedScene opened = open(place, one_bead(0.0), {fmt::format("time.step={}", h), "solver.min_sweeps=2"});
     run_until(opened.simulation, 1.0, {});
     const Companions companions = companions_of(opened, 4.0);
     REQUIRE(companions.pieces() > 3);
@@ -186,7 +186,8 @@ TEST_CASE(
     const std::vector<std::string> well = {"solver.tolerance=0.03", "solver.min_sweeps=1", "solver.max_sweeps=1000"};
     const Workplace place;
     for (const auto& [wrong, better, by, quantity, least] :
-        {Case{{"time.step=0.002"}, {"time.step=0.001"}, &ChangesOfResult::by_step, coordination, 0.7},
+        {Case{{"time.step=0.002", "solver.min_sweeps=2"}, {"time.step=0.001", "solver.min_sweeps=2"},
+             &ChangesOfResult::by_step, coordination, 0.7},
             Case{hardly, well, &ChangesOfResult::by_solver, coordination, 0.4},
             Case{hardly, well, &ChangesOfResult::by_solver, temperature, 0.4}}) {
         OpenedScene run = open(place, shaken_bed(), wrong), better_run = open(place, shaken_bed(), better);

@@ -48,7 +48,7 @@ TEST_CASE("a run tells what an accuracy picked", "[app][accuracy]")
     const Outcome run = place.talus("run shaft.toml --accuracy 1% --until 0.002 -o out");
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    CHECK_THAT(run.out, Contains("accuracy 1 %: time step x"));
+    CHECK_THAT(run.out, Contains("accuracy 1 %: overlap 0.0005 d"));
     CHECK_THAT(place.read("out/scene.resolved.toml"), Contains("accuracy = \"1%\""));
 
     const Outcome none = place.talus("run shaft.toml --accuracy none -o out2");

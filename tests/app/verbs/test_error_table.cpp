@@ -259,8 +259,8 @@ const std::vector<Situation> situations = {
         resume},
     {"a sphere that escapes", "", "run bead.toml --quiet"},
     {"a sphere that is too fast", "",
-        "run bead.toml --quiet --until 9 --set 'world.min=[-inf, -inf, -1e4]' "
-        "--set 'world.max=[1e4, inf, inf]'"},
+        "run bead.toml --quiet --until 9 --set 'world.gravity=[9.81, 0, 0]' --set 'world.periodic=[\"x\"]' "
+        "--set 'world.min=[-1, -inf, -inf]' --set 'world.max=[1, inf, inf]'"},
     {"a wall of finite mass that escapes",
         "printf '[[wall]]\nname = \"w\"\nmaterial = \"glass\"\nshape = \"disk\"\ncenter = [1, 1, 0]\nradius = 0.1"
         "\nmass = 1\nguide = [0, 0, 1]\n' >> scene.toml",

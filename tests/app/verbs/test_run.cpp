@@ -54,7 +54,8 @@ TEST_CASE("beads that are poured gain no energy from what blows leave overlappin
     const std::string seed = std::to_string(GENERATE(1, 2, 3));
     REQUIRE(place.talus("run pile --until 0.5 --threads 1 -o out --set seed=" + seed).exit_code == 0);
     const json energy = json::parse(place.read("out/summary.json"))["error"]["energy"];
-    CHECK(energy["lost"] > 0.4);
+    // 0.9 J in all; what is lost in steps in which a bead comes in is not counted.
+    CHECK(energy["lost"] > 0.3);
     CHECK(energy["gained"] < 5e-4 * energy["lost"].get<double>());
 }
 
