@@ -2,6 +2,7 @@
 #include "app/verbs/check_scene.hpp"
 
 #include "app/system/terminal.hpp"
+#include "app/verbs/forecast.hpp"
 #include "core/world/closed_mesh.hpp"
 #include "io/text/input_error.hpp"
 #include "scenarios/builder/checks.hpp"
@@ -24,13 +25,10 @@ constexpr double contact_frame_bytes = 50.0;  ///< for a contact, compressed (me
 constexpr double metrics_row_bytes = 200.0;
 constexpr double checkpoint_bytes = 400.0; ///< for a sphere (measured); two checkpoints are kept
 
-// What a sphere takes in a step, on one thread [s]: falling, and in a flow with many contacts (measured).
-constexpr double fast_sphere_step = 0.1e-6, slow_sphere_step = 0.6e-6;
-
 double poured_count(const Simulation& simulation)
 {
     double count = 0.0;
-    for (const Pour& pour : simulation.pours) count += expected_count(pour, simulation.model.materials);
+    for (const Pour& pour : simulation.pours) count += poured_by(pour, simulation.duration, simulation);
     return count;
 }
 
@@ -39,8 +37,7 @@ double mass(const Simulation& simulation)
     double sum = 0.0;
     for (std::size_t i = 0; i < simulation.state.count(); ++i) sum += simulation.state.mass(i);
     for (const Pour& pour : simulation.pours) {
-        const Materials& materials = simulation.model.materials;
-        sum += expected_count(pour, materials) * pour.mixture.mean_mass(materials);
+        sum += poured_by(pour, simulation.duration, simulation) * pour.mixture.mean_mass(simulation.model.materials);
     }
     return sum;
 }
@@ -141,12 +138,9 @@ void print_needs(const OpenedScene& opened)
     const Simulation& simulation = opened.simulation;
     const double spheres = static_cast<double>(simulation.state.count()) + poured_count(simulation);
     const double steps = std::ceil(simulation.duration / simulation.model.time_step);
-    const double slow = slow_sphere_step * steps * spheres;
-    if (slow < 1.0)
-        say("time: {:.0f} steps; below 1 s\n", steps);
-    else
-        say("time: {:.0f} steps; {} (free fall) to {} (dense flow) on one thread\n", steps,
-            time_in_words(fast_sphere_step * steps * spheres), time_in_words(slow));
+    const double cpu = forecast_cpu(opened);
+    say("time: {:.0f} steps; {} on one thread, or half or twice as long\n", steps,
+        cpu < 1.0 ? "below 1 s" : "some " + time_in_words(cpu));
     say("memory: about {:.0f} MB\n", 1e-6 * memory_estimate(simulation, spheres));
     say("disk: up to {:.0f} MB\n", std::ceil(1e-6 * disk_estimate(opened, spheres)));
 }

@@ -14,7 +14,7 @@ namespace talus
 struct StepTargets {
     double overlap = 0.002; ///< mean of loaded contacts, of what the law's own softness makes [d]
     double creep = 0.0036;  ///< h by a sweep, of those that a step makes at least [sqrt(d/gravity)]
-    double approach = 0.09;  ///< how far two surfaces that will touch come nearer in a step [d]
+    double approach = 0.09; ///< how far two surfaces that will touch come nearer in a step [d]
 };
 
 /// The step of a run, and what it was chosen from.
@@ -34,7 +34,7 @@ struct StepChoice {
 
 /// The step of the scene, the one given or the longest that keeps to the targets, and the sweeps that it needs, N_min.
 ///
-/// With `matched` a bed of depth Z overlaps by 0.45 h² gravity Z/N_min on average; a load takes sweeps to go through
+/// With `matched` the overlap of a bed of depth Z goes with h² gravity Z/N_min; a load takes sweeps to go through
 /// it. So N_min grows as the step, from 2 up to 4, unless the scene gives it.
 /// @param simulation its spheres are there, and its model has its solver
 /// @throws SceneError where neither gravity nor a speed gives a step

@@ -88,7 +88,7 @@ TEST_CASE("targets that the scene gives are kept", "[step_choice]")
         scene.targets.overlap = {1e-5, ""};
         const auto [simulation, report, output] = build_scene(scene);
         const double h = simulation.model.time_step, depth = measure_bed(simulation).borne_depth();
-        CHECK(0.45 * 9.81 * depth * h * h / simulation.model.solver.min_sweeps == Approx(1e-5 * 0.01));
+        CHECK(0.6 * 9.81 * depth * h * h / simulation.model.solver.min_sweeps == Approx(1e-5 * 0.01));
         CHECK_THAT(report.step, Contains("for the mean overlap of the bed"));
     }
 }

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/verbs/forecast.hpp"
+
+#include "scenarios/builder/bed.hpp"
+#include "scenarios/builder/build_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <numbers>
+#include <omp.h>
+
+namespace talus
+{
+namespace
+{
+
+constexpr double falling_share = 0.25; ///< of what a sphere takes in a bed, while it touches nothing (measured)
+constexpr double around_steps = 1.15;  ///< frames, sensors, companions (measured)
+constexpr double loosely = 0.3;        ///< of its region, what a pour can fill at a time
+constexpr int settling = 40, timed = 60;
+constexpr double fewest = 100.0, most = 1500.0;   ///< spheres of the bed that is measured
+constexpr double deepest = 12.0, narrowest = 5.0; ///< its depth and its width in diameters, at most and at least
+
+double volume_of(double diameter)
+{
+    return std::numbers::pi / 6.0 * std::pow(diameter, 3);
+}
+
+double gravity_of(const Model& model)
+{
+    return model.gravity.norm();
+}
+
+/// Spheres a second that fall through what opens when a wall is taken away: a slot where it is more than twice as long
+/// as wide.
+double drain_rate(const Wall& wall, const Model& model)
+{
+    const Vec3 size = bounds(wall.shape).extent(),
+               level = size - size.dot(model.up().cwiseAbs()) * model.up().cwiseAbs();
+    double widest = level.maxCoeff(), narrow = 0.0;
+    for (int d = 0; d < 3; ++d)
+        if (level[d] < widest) narrow = std::max(narrow, level[d]);
+    if (narrow == 0.0) narrow = widest;
+    const double d = model.mean_diameter, open = std::max(0.0, narrow - 1.4 * d), g = gravity_of(model);
+    const double flow = widest > 2.0 * narrow ? 1.03 * std::sqrt(g) * std::pow(open, 1.5) * widest
+                                              : 0.58 * std::sqrt(g) * std::pow(open, 2.5);
+    return packed_share * flow / volume_of(d);
+}
+
+/// How many spheres there will be, and how many of them fall, on average over the run.
+struct Crowd {
+    double there = 0.0, falling = 0.0;
+};
+
+Crowd crowd_of(const Simulation& simulation, const Bed& bed)
+{
+    constexpr int looks = 200;
+    const Model& model = simulation.model;
+    const double fall = gravity_of(model) > 0.0 ? std::sqrt(2.0 * bed.landing / gravity_of(model)) : 0.0;
+    const auto come_by = [&](double time) {
+        double count = static_cast<double>(simulation.state.count());
+        for (const Pour& pour : simulation.pours) count += poured_by(pour, time, simulation);
+        return count;
+    };
+    Crowd mean;
+    for (int k = 0; k < looks; ++k) {
+        const double time = simulation.duration * (k + 0.5) / looks;
+        double left = come_by(time), drained = 0.0;
+        if (!model.outlets.empty())
+            for (const Wall& wall : model.walls)
+                if (!bounds(wall.shape).empty())
+                    drained += std::max(0.0, time - wall.remove_at) * drain_rate(wall, model);
+        left = std::max(0.0, left - drained);
+        mean.there += left / looks;
+        mean.falling += std::min(left, come_by(time) - (time > fall ? come_by(time - fall) : 0.0)) / looks;
+    }
+    return mean;
+}
+
+/// A flow of so many of the scene's spheres down a rough slope, periodic to all sides.
+Simulation small_flow(const OpenedScene& opened, double count, double depth)
+{
+    const scene::Scene& of = opened.scene;
+    const Model& model = opened.simulation.model;
+    const double d = model.mean_diameter, share = 0.55;
+    const double z = std::clamp(depth, 2.0, deepest) * d;
+    const double width = std::max(narrowest * d, std::sqrt(count * volume_of(d) / (share * z)));
+    scene::Scene small;
+    small.solver = of.solver;
+    small.solver.stabilisation = model.solver.stabilisation == Stabilisation::matched ? "matched" : "projected";
+    small.solver.min_sweeps = model.solver.min_sweeps;
+    small.solver.pressure_scaling = {false, ""};
+    small.solver.tolerance = {model.solver.tolerance, ""};
+    small.time.step = {model.time_step, ""};
+    small.world.periodic = {"x", "y"};
+    small.world.min = Vec3(0, 0, -infinity);
+    small.world.max = Vec3(width, width, infinity);
+    small.world.rotation = of.world.rotation;
+    const double g = gravity_of(model);
+    small.world.gravity = Vec3(0.4 * g, 0, -0.9 * g);
+    small.materials = of.materials;
+    small.contact = of.contact;
+    const auto& used = of.materials[static_cast<std::size_t>(*sphere_materials(opened.simulation).begin())].name;
+    auto& fill = small.fill.emplace_back();
+    fill.material = used;
+    fill.arrangement = "dense";
+    fill.count = static_cast<std::int64_t>(count);
+    fill.diameter.value = d;
+    fill.region.min = Vec3(0, 0, d);
+    fill.region.max = Vec3(width, width, d + z);
+    auto& floor = small.wall.emplace_back();
+    floor.name = "floor";
+    floor.shape = "plane";
+    floor.material = used;
+    return build_scene(small).simulation;
+}
+
+/// What a sphere takes in a step [s].
+double sphere_step(const OpenedScene& opened, double count, double depth)
+{
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(1);
+    const double n = std::clamp(count, fewest, most);
+    Simulation flow = small_flow(opened, n, depth);
+    for (int k = 0; k < settling; ++k) advance(flow);
+    const std::clock_t begin = std::clock();
+    for (int k = 0; k < timed; ++k) advance(flow);
+    const double took = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    omp_set_num_threads(threads);
+    return took / timed / n;
+}
+
+} // namespace
+
+double poured_by(const Pour& source, double time, const Simulation& simulation)
+{
+    const Materials& materials = simulation.model.materials;
+    const double since = std::max(0.0, time - source.start), g = gravity_of(simulation.model);
+    const double of_rate = std::min(source.rate, source.mass_rate / source.mixture.mean_mass(materials)) * since;
+    // What comes in must go down before more can.
+    const Box box = source.region.bounds();
+    const double height = box.extent().dot(simulation.model.up().cwiseAbs()), speed = source.velocity.norm();
+    const double clears = g > 0.0 ? (std::sqrt(speed * speed + 2.0 * g * height) - speed) / g : height / speed;
+    const double at_once = loosely * source.region.volume() / volume_of(source.mixture.mean_diameter());
+    return std::min({expected_count(source, materials), since > 0.0 ? of_rate : 0.0, at_once * (1.0 + since / clears)});
+}
+
+double forecast_cpu(const OpenedScene& opened)
+{
+    const Simulation& simulation = opened.simulation;
+    const Bed bed = measure_bed(simulation);
+    const Crowd crowd = crowd_of(simulation, bed);
+    const double steps = std::ceil(simulation.duration / simulation.model.time_step);
+    const double busy = crowd.there - crowd.falling + falling_share * crowd.falling;
+    return around_steps * steps * sphere_step(opened, crowd.there, bed.measures.depth) * busy;
+}
+
+} // namespace talus
