@@ -31,7 +31,8 @@ std::string explain_step(const StepChoice& choice, double d)
     const std::pair<double, std::string> targets[] = {
         {choice.by_approach, text("the approach of what closes at %.3g m/s", choice.closing_speed)},
         {choice.by_overlap, "the mean overlap of the bed"}, {choice.by_creep, "the creep of a bed at rest"},
-        {choice.by_heavy, "the overlap below its heaviest sphere"}};
+        {choice.by_heavy, "the overlap below its heaviest sphere"},
+        {choice.by_samples == automatic ? automatic : infinity, "the time between samples"}};
     std::string decides, others;
     for (const auto& [step, target] : targets)
         if (step == automatic && decides.empty())

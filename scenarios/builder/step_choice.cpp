@@ -97,6 +97,7 @@ StepChoice choose_step(
     const Model& model = simulation.model;
     const SceneSpeeds speeds = scene_speeds(simulation, bed);
     StepChoice choice = automatic_choice(scene, simulation, bed, speeds.closing, targets);
+    choice.by_samples = scene.time.metrics_interval;
     choice.given = scene.time.step.name != "auto";
     choice.step = choice.given ? scene.time.step.number : choice.automatic();
     if (!std::isfinite(choice.step))

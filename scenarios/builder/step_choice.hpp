@@ -5,7 +5,8 @@
 #include "scenarios/builder/bed.hpp"
 #include "scenarios/scene.hpp"
 
-#include <string>
+#include <algorithm>
+#include <cmath>
 
 namespace talus
 {
@@ -29,7 +30,14 @@ struct StepChoice {
     double closing_speed = 0.0; ///< of surfaces that will touch, at most [m/s]
     double speed_limit = 0.0;   ///< what is faster is a blow-up [m/s]
 
-    double automatic() const { return std::min({by_overlap, by_creep, by_approach, by_heavy}); }
+    double by_samples = infinity; ///< the time between samples, which it is no longer than [s]
+
+    /// Infinite where neither gravity nor a speed says anything.
+    double automatic() const
+    {
+        const double longest = std::min({by_overlap, by_creep, by_approach, by_heavy});
+        return std::isfinite(longest) ? std::min(longest, by_samples) : longest;
+    }
 };
 
 /// The step of the scene, the one given or the longest that keeps to the targets, and the sweeps that it needs, N_min.

@@ -260,6 +260,16 @@ TEST_CASE("without gravity the speeds alone decide the step", "[step_choice]")
     CHECK(build_scene(scene).simulation.model.solver.min_sweeps == 2);
 }
 
+TEST_CASE("what hardly closes has a step no longer than the time between samples", "[step_choice]")
+{
+    auto scene = small_scene();
+    scene.world.gravity.setZero();
+    scene.fill[0].velocity = Vec3(1e-6, 0, 0);
+    const auto [simulation, report, output] = build_scene(scene);
+    CHECK(simulation.model.time_step == scene.time.metrics_interval);
+    CHECK_THAT(report.step, Contains("for the time between samples"));
+}
+
 TEST_CASE("walls that rub carry what lies deeper than they are apart", "[step_choice]")
 {
     auto scene = small_scene();
