@@ -16,7 +16,8 @@ namespace
 {
 
 constexpr double falling_share = 0.25; ///< of what a sphere takes in a bed, while it touches nothing (measured)
-constexpr double around_steps = 1.15;  ///< frames, sensors, companions (measured)
+constexpr double around_steps = 2.0;   ///< frames, reports, and what real flows take more (measured)
+constexpr double loosely_packed = 0.5; ///< of its room, what the bed that is measured fills
 constexpr double loosely = 0.3;        ///< of its region, what a pour can fill at a time
 constexpr int settling = 40, timed = 60;
 constexpr double fewest = 100.0, most = 1500.0;   ///< spheres of the bed that is measured
@@ -78,41 +79,59 @@ Crowd crowd_of(const Simulation& simulation, const Bed& bed)
     return mean;
 }
 
-/// A flow of so many of the scene's spheres down a rough slope, periodic to all sides.
+/// The law between spheres of this material, which a scene with one sphere may leave out.
+void complete_laws(scene::Scene& scene, const std::string& material)
+{
+    const std::vector<std::string> pair = {material, material};
+    if (std::ranges::any_of(scene.contact, [&](const auto& law) { return law.between == pair; })) return;
+    auto law = scene.contact.empty() ? scene::ContactTable{} : scene.contact[0];
+    law.between = pair;
+    scene.contact.push_back(law);
+}
+
+/// A flow of so many of the scene's spheres down a slope, periodic to all sides; where pressures are scaled, which
+/// periodic axes do not allow, a bed in a box.
 Simulation small_flow(const OpenedScene& opened, double count, double depth)
 {
     const scene::Scene& of = opened.scene;
     const Model& model = opened.simulation.model;
-    const double d = model.mean_diameter, share = 0.55;
-    const double z = std::clamp(depth, 2.0, deepest) * d;
-    const double width = std::max(narrowest * d, std::sqrt(count * volume_of(d) / (share * z)));
+    const double d = model.mean_diameter, room = count * volume_of(d) / loosely_packed;
+    const double width = std::max(narrowest * d, std::sqrt(room / (std::clamp(depth, 2.0, deepest) * d)));
+    const double height = room / (width * width) + d;
+    const bool boxed = model.solver.pressure_scaling;
     scene::Scene small;
     small.solver = of.solver;
     small.solver.stabilisation = model.solver.stabilisation == Stabilisation::matched ? "matched" : "projected";
     small.solver.min_sweeps = model.solver.min_sweeps;
-    small.solver.pressure_scaling = {false, ""};
+    small.solver.pressure_scaling = {boxed, ""};
     small.solver.tolerance = {model.solver.tolerance, ""};
     small.time.step = {model.time_step, ""};
-    small.world.periodic = {"x", "y"};
-    small.world.min = Vec3(0, 0, -infinity);
-    small.world.max = Vec3(width, width, infinity);
+    small.time.duration = 0.0;
+    if (!boxed) {
+        small.world.periodic = {"x", "y"};
+        small.world.min = Vec3(0, 0, -infinity);
+        small.world.max = Vec3(width, width, infinity);
+    }
     small.world.rotation = of.world.rotation;
     const double g = gravity_of(model);
-    small.world.gravity = Vec3(0.4 * g, 0, -0.9 * g);
+    small.world.gravity = boxed ? Vec3(0, 0, -g) : Vec3(0.4 * g, 0, -0.9 * g);
     small.materials = of.materials;
     small.contact = of.contact;
     const auto& used = of.materials[static_cast<std::size_t>(*sphere_materials(opened.simulation).begin())].name;
+    complete_laws(small, used);
     auto& fill = small.fill.emplace_back();
     fill.material = used;
     fill.arrangement = "dense";
     fill.count = static_cast<std::int64_t>(count);
     fill.diameter.value = d;
     fill.region.min = Vec3(0, 0, d);
-    fill.region.max = Vec3(width, width, d + z);
+    fill.region.max = Vec3(width, width, d + height);
     auto& floor = small.wall.emplace_back();
     floor.name = "floor";
-    floor.shape = "plane";
+    floor.shape = boxed ? "box" : "plane";
     floor.material = used;
+    floor.max = Vec3(width, width, 2.0 * height);
+    if (boxed) floor.open = {"z+"};
     return build_scene(small).simulation;
 }
 

@@ -56,6 +56,24 @@ TEST_CASE("list names every supplied scene with its title", "[app][command line]
         if (entry.path().extension() == ".toml") CHECK_THAT(outcome.out, Contains(entry.path().stem().string() + " "));
 }
 
+TEST_CASE("check counts what a pour lets in while the run lasts", "[app][command line]")
+{
+    const Workplace place;
+    const std::string pour = "[[pour]]\nmaterial = \"glass\"\ndiameter = 0.01\nregion = { shape = \"box\", "
+                             "min = [0, 0, 0.1], max = [0.05, 0.05, 0.2] }\ncount = 1000000\n";
+    place.write("scene.toml", beads_in_a_box + pour + "rate = 150\n");
+    const Outcome outcome = place.talus("check scene.toml --until 1");
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(
+        outcome.out, Contains("8 at the start, 150 poured in") && Contains(" s on one thread, or half or twice"));
+    // At any rate no more than fall out of its region to make room for others.
+    place.write("scene.toml", beads_in_a_box + pour + "rate = 1e9\n");
+    const std::string out = place.talus("check scene.toml --until 1").out;
+    const double count = std::stod(out.substr(out.find("at the start, ") + 14));
+    CHECK(count > 300.0);
+    CHECK(count < 3000.0);
+}
+
 TEST_CASE("check says what a scene holds and needs, and writes nothing", "[app][command line]")
 {
     const Workplace place;
