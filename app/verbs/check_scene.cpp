@@ -36,9 +36,8 @@ double mass(const Simulation& simulation)
 {
     double sum = 0.0;
     for (std::size_t i = 0; i < simulation.state.count(); ++i) sum += simulation.state.mass(i);
-    for (const Pour& pour : simulation.pours) {
+    for (const Pour& pour : simulation.pours)
         sum += poured_by(pour, simulation.duration, simulation) * pour.mixture.mean_mass(simulation.model.materials);
-    }
     return sum;
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <numbers>
 #include <omp.h>
 
 namespace talus
@@ -22,11 +21,6 @@ constexpr double loosely = 0.3;        ///< of its region, what a pour can fill 
 constexpr int settling = 40, timed = 60;
 constexpr double fewest = 100.0, most = 1500.0;   ///< spheres of the bed that is measured
 constexpr double deepest = 12.0, narrowest = 5.0; ///< its depth and its width in diameters, at most and at least
-
-double volume_of(double diameter)
-{
-    return std::numbers::pi / 6.0 * std::pow(diameter, 3);
-}
 
 double gravity_of(const Model& model)
 {
@@ -46,7 +40,7 @@ double drain_rate(const Wall& wall, const Model& model)
     const double d = model.mean_diameter, open = std::max(0.0, narrow - 1.4 * d), g = gravity_of(model);
     const double flow = widest > 2.0 * narrow ? 1.03 * std::sqrt(g) * std::pow(open, 1.5) * widest
                                               : 0.58 * std::sqrt(g) * std::pow(open, 2.5);
-    return packed_share * flow / volume_of(d);
+    return packed_share * flow / volume_of_sphere(d);
 }
 
 /// How many spheres there will be, and how many of them fall, on average over the run.
@@ -95,7 +89,7 @@ Simulation small_flow(const OpenedScene& opened, double count, double depth)
 {
     const scene::Scene& of = opened.scene;
     const Model& model = opened.simulation.model;
-    const double d = model.mean_diameter, room = count * volume_of(d) / loosely_packed;
+    const double d = model.mean_diameter, room = count * volume_of_sphere(d) / loosely_packed;
     const double width = std::max(narrowest * d, std::sqrt(room / (std::clamp(depth, 2.0, deepest) * d)));
     const double height = room / (width * width) + d;
     const bool boxed = model.solver.pressure_scaling;
@@ -161,7 +155,7 @@ double poured_by(const Pour& source, double time, const Simulation& simulation)
     const Box box = source.region.bounds();
     const double height = box.extent().dot(simulation.model.up().cwiseAbs()), speed = source.velocity.norm();
     const double clears = g > 0.0 ? (std::sqrt(speed * speed + 2.0 * g * height) - speed) / g : height / speed;
-    const double at_once = loosely * source.region.volume() / volume_of(source.mixture.mean_diameter());
+    const double at_once = loosely * source.region.volume() / volume_of_sphere(source.mixture.mean_diameter());
     return std::min({expected_count(source, materials), since > 0.0 ? of_rate : 0.0, at_once * (1.0 + since / clears)});
 }
 

@@ -15,11 +15,6 @@ constexpr double heap_slope = 0.6;       ///< tangent of what a heap without wal
 constexpr double lateral_pressure = 0.5; ///< K, of the vertical one
 constexpr double snug = 1.5;             ///< times a bed's width: what is wider does not carry it
 
-double volume_of_sphere(double diameter)
-{
-    return std::numbers::pi / 6.0 * std::pow(diameter, 3);
-}
-
 /// The axis along which gravity acts most; the other two are level.
 int upright_axis(const Vec3& up)
 {
@@ -103,12 +98,11 @@ double poured_depth(const Contents& all, const Model& model)
     return depth;
 }
 
-/// The least friction of any sphere with a wall.
-double friction_with(const Wall& wall, const Simulation& simulation)
+/// The least friction of any sphere of these materials with a wall.
+double friction_with(const Wall& wall, const std::set<int>& spheres, const Materials& materials)
 {
     double least = infinity;
-    for (const int a : sphere_materials(simulation))
-        least = std::min(least, simulation.model.materials.between(a, wall.material).friction);
+    for (const int a : spheres) least = std::min(least, materials.between(a, wall.material).friction);
     return least;
 }
 
@@ -125,6 +119,7 @@ bool stands_beside(const Wall& wall, const Box& room, int axis, double diameter)
 double screening_length(const Simulation& simulation, const Box& room)
 {
     const Model& model = simulation.model;
+    const std::set<int> spheres = sphere_materials(simulation);
     const int upright = upright_axis(model.up());
     double area = 1.0, perimeter = 0.0, friction = infinity;
     for (int d = 0; d < 3; ++d) {
@@ -135,7 +130,7 @@ double screening_length(const Simulation& simulation, const Box& room)
         double beside = 0.0;
         for (const Wall& wall : model.walls)
             if (!wall.is_piston() && stands_beside(wall, room, d, model.max_diameter))
-                beside = std::max(beside, friction_with(wall, simulation));
+                beside = std::max(beside, friction_with(wall, spheres, model.materials));
         friction = std::min(friction, beside);
         perimeter += 2.0 * room.extent()[other];
     }
@@ -202,6 +197,11 @@ double surcharge_of(const Model& model, const Box& room)
 }
 
 } // namespace
+
+double volume_of_sphere(double diameter)
+{
+    return std::numbers::pi / 6.0 * std::pow(diameter, 3);
+}
 
 std::set<int> sphere_materials(const Simulation& simulation)
 {

@@ -25,6 +25,8 @@ struct Bed {
     double borne_depth() const;
 };
 
+double volume_of_sphere(double diameter);
+
 /// The materials that spheres are made of, now or later.
 std::set<int> sphere_materials(const Simulation& simulation);
 

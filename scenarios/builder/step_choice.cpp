@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 namespace talus
 {
@@ -34,10 +35,10 @@ struct Softness {
         const Model& model = simulation.model;
         const double d = model.mean_diameter;
         double density = infinity, stiffness = 0.0;
-        for (const int a : sphere_materials(simulation)) {
+        const std::set<int> materials = sphere_materials(simulation);
+        for (const int a : materials) {
             density = std::min(density, model.materials.list[static_cast<std::size_t>(a)].density);
-            for (const int b : sphere_materials(simulation))
-                stiffness = std::max(stiffness, model.materials.between(a, b).stiffness);
+            for (const int b : materials) stiffness = std::max(stiffness, model.materials.between(a, b).stiffness);
         }
         load = overlap_of_layer * ((model.gravity.norm() + bed.wall_acceleration) * bed.borne_depth() +
                                       2.0 * bed.surcharge / (packed_share * density * d));
@@ -47,11 +48,9 @@ struct Softness {
 };
 
 /// The longest steps that keep to each target, with so many sweeps at least.
-StepChoice longest_with(
-    int sweeps, const Simulation& simulation, const Bed& bed, double closing_speed, const StepTargets& targets)
+StepChoice longest_with(int sweeps, const Model& model, const Bed& bed, const Softness& softness, double closing_speed,
+    const StepTargets& targets)
 {
-    const Model& model = simulation.model;
-    const Softness softness(simulation, bed);
     const double d = model.min_diameter, time_of_fall = std::sqrt(d / model.gravity.norm());
     const bool soft = model.solver.stabilisation == Stabilisation::matched;
     const double borne = borne_step * std::sqrt(std::cbrt(borne_ratio / bed.measures.mass_ratio));
@@ -81,7 +80,8 @@ StepChoice automatic_choice(const scene::Scene& scene, const Simulation& simulat
     double closing_speed, const StepTargets& targets)
 {
     const SolverSettings& solver = simulation.model.solver;
-    const auto with = [&](int n) { return longest_with(n, simulation, bed, closing_speed, targets); };
+    const Softness softness(simulation, bed);
+    const auto with = [&](int n) { return longest_with(n, simulation.model, bed, softness, closing_speed, targets); };
     if (scene.solver.min_sweeps > 0 || solver.stabilisation == Stabilisation::projected) return with(solver.min_sweeps);
     StepChoice best = with(solver.min_sweeps);
     for (int n = solver.min_sweeps + 1; n <= std::min(most_sweeps, solver.max_sweeps); ++n)

@@ -463,28 +463,26 @@ TEST_CASE("a moving wall's speed, and so the step, does not depend on when the r
 {
     auto scene = small_scene();
     scene.time.duration = 0.0123;
-    auto& motion = scene.wall[0].motion.emplace_back();
+    scene::WallTable& box = scene.wall[0];
     SECTION("shaken")
     {
-        motion.kind = "shake";
+        auto& motion = add_motion(box, "shake");
         motion.amplitude = Vec3(0, 0, 0.03);
         motion.frequency = 37.0;
     }
     SECTION("turned")
     {
-        motion.kind = "turn";
+        auto& motion = add_motion(box, "turn");
         motion.axis = Vec3(1, 2, 3).normalized();
         motion.rate = 77.0;
     }
     SECTION("sunk")
     {
-        motion.kind = "translate";
-        motion.velocity = Vec3(0, 0, -4.0);
+        add_motion(box, "translate").velocity = Vec3(0, 0, -4.0);
     }
     SECTION("knocked after the end of the shorter run")
     {
-        motion.kind = "table";
-        motion.table = {{0.5, Vec3::Zero()}, {0.5001, Vec3(0.0004, 0, 0)}};
+        add_motion(box, "table").table = {{0.5, Vec3::Zero()}, {0.5001, Vec3(0.0004, 0, 0)}};
     }
     add_wall(scene, "plane").point.z() = -1.0;
     const StepChoice early = choice_of(scene);
