@@ -44,7 +44,7 @@ struct TargetsTable {
             "else 0.0036");
         key("approach", self.approach, positive, "d",
             "how far surfaces that will touch come nearer to each other in a step, in smallest diameters; auto: what "
-            "accuracy picks, else 0.09");
+            "accuracy picks, else 0.085");
     }
 };
 

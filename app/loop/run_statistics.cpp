@@ -36,9 +36,9 @@ double LogHistogram::percentile(double share) const
     return worst_;
 }
 
-void EnergyBalance::add(const StepReport& report, bool same_spheres)
+void EnergyBalance::add(const StepReport& report, bool comparable)
 {
-    if (!same_spheres) motion_energy_ = total_energy_ = std::nullopt;
+    if (!comparable) motion_energy_ = total_energy_ = std::nullopt;
 
     // a report has the contact energy at the beginning of its step, which is the end of the step before
     std::optional<double> total;
@@ -48,6 +48,7 @@ void EnergyBalance::add(const StepReport& report, bool same_spheres)
         lost_ += std::max(0.0, -rise);
         gained_ += std::max(0.0, rise);
     }
+    if (total) *total += report.exchange.energy;
     total_energy_ = total;
     work_ = report.outcome.wall_work + report.bodies.load_work + report.bodies.gravity_work;
     put_in_ += work_;
@@ -94,7 +95,8 @@ void RunStatistics::add(const StepReport& report, const Simulation& simulation)
     const std::int64_t left = simulation.outflow.count + static_cast<std::int64_t>(simulation.escaped.size()) +
                               simulation.interventions.taken_out;
     same_spheres_ = inserted == inserted_ && left == left_;
-    energy_.add(report, same_spheres_);
+    const Exchange& exchange = report.exchange;
+    energy_.add(report, inserted - inserted_ == exchange.came && left - left_ == exchange.left);
     momentum_.add(report, same_spheres_);
     inserted_ = inserted;
     left_ = left;

@@ -39,13 +39,12 @@ private:
 };
 
 /// Falls and rises of the total energy from step to step: kinetic + potential + stored in the contacts, less what
-/// moving walls, loads on pistons, and gravity along periodic axes, put in. Only steps with the same spheres are
-/// compared; what pours and outlets carry in and out is not a change of theirs.
+/// moving walls, loads on pistons, and gravity along periodic axes, put in, and pours and outlets carried in and out.
 class EnergyBalance
 {
 public:
-    /// @param same_spheres whether those in the step are those of the step before
-    void add(const StepReport& report, bool same_spheres);
+    /// @param comparable whether the spheres of the step before are there, but for what pours and outlets exchanged
+    void add(const StepReport& report, bool comparable);
 
     double lost() const { return lost_; }     ///< sum of the falls [J]
     double gained() const { return gained_; } ///< sum of the rises [J]

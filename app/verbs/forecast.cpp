@@ -16,11 +16,18 @@ namespace
 
 constexpr double falling_share = 0.25; ///< of what a sphere takes in a bed, while it touches nothing (measured)
 constexpr double around_steps = 2.0;   ///< frames, reports, and what real flows take more (measured)
-constexpr double loosely_packed = 0.5; ///< of its room, what the bed that is measured fills
+constexpr double loosely_packed = 0.55; ///< of its room, what the bed that is measured fills
 constexpr double loosely = 0.3;        ///< of its region, what a pour can fill at a time
 constexpr int settling = 40, timed = 60;
-constexpr double fewest = 100.0, most = 1500.0;   ///< spheres of the bed that is measured
-constexpr double deepest = 12.0, narrowest = 5.0; ///< its depth and its width in diameters, at most and at least
+constexpr double fewest = 100.0;  ///< spheres of the bed that is measured
+constexpr double narrowest = 5.0; ///< its width in diameters, at least
+
+/// What is measured at most. The sweeps of a soft bed hardly grow with its depth, those of a rigid one do.
+struct Sample {
+    double spheres, depth; ///< depth in diameters
+
+    explicit Sample(bool deep) : spheres(deep ? 6000.0 : 1500.0), depth(deep ? 200.0 : 12.0) {}
+};
 
 double gravity_of(const Model& model)
 {
@@ -89,10 +96,11 @@ Simulation small_flow(const OpenedScene& opened, double count, double depth)
 {
     const scene::Scene& of = opened.scene;
     const Model& model = opened.simulation.model;
-    const double d = model.mean_diameter, room = count * volume_of_sphere(d) / loosely_packed;
-    const double width = std::max(narrowest * d, std::sqrt(room / (std::clamp(depth, 2.0, deepest) * d)));
-    const double height = room / (width * width) + d;
     const bool boxed = model.solver.pressure_scaling;
+    const double d = model.mean_diameter, room = count * volume_of_sphere(d) / loosely_packed;
+    const double layers = std::clamp(depth, 2.0, Sample(boxed).depth);
+    const double width = std::max(narrowest * d, std::sqrt(room / (layers * d)));
+    const double height = room / (width * width) + d;
     scene::Scene small;
     small.solver = of.solver;
     small.solver.stabilisation = model.solver.stabilisation == Stabilisation::matched ? "matched" : "projected";
@@ -115,16 +123,17 @@ Simulation small_flow(const OpenedScene& opened, double count, double depth)
     complete_laws(small, used);
     auto& fill = small.fill.emplace_back();
     fill.material = used;
-    fill.arrangement = "dense";
+    fill.arrangement = boxed ? "lattice" : "dense";
+    fill.spacing = 1.0;
     fill.count = static_cast<std::int64_t>(count);
     fill.diameter.value = d;
-    fill.region.min = Vec3(0, 0, d);
-    fill.region.max = Vec3(width, width, d + height);
+    fill.region.min = Vec3(0, 0, boxed ? 0.0 : d);
+    fill.region.max = Vec3(width, width, boxed ? 2.0 * height : d + height);
     auto& floor = small.wall.emplace_back();
     floor.name = "floor";
     floor.shape = boxed ? "box" : "plane";
     floor.material = used;
-    floor.max = Vec3(width, width, 2.0 * height);
+    floor.max = Vec3(width, width, 3.0 * height);
     if (boxed) floor.open = {"z+"};
     return build_scene(small).simulation;
 }
@@ -134,7 +143,7 @@ double sphere_step(const OpenedScene& opened, double count, double depth)
 {
     const int threads = omp_get_max_threads();
     omp_set_num_threads(1);
-    const double n = std::clamp(count, fewest, most);
+    const double n = std::clamp(count, fewest, Sample(opened.simulation.model.solver.pressure_scaling).spheres);
     Simulation flow = small_flow(opened, n, depth);
     for (int k = 0; k < settling; ++k) advance(flow);
     const std::clock_t begin = std::clock();

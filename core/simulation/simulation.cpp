@@ -18,11 +18,22 @@ constexpr std::int64_t outlet_interval =
     10; ///< steps between two emptyings of the outlets, each of which renumbers all spheres
 
 /// Lets poured spheres in and takes away those that have been in an outlet.
-void let_in_and_out(Simulation& simulation)
+Exchange let_in_and_out(Simulation& simulation)
 {
-    for (auto& source : simulation.pours) pour(source, simulation.state, simulation.model);
-    if (simulation.state.steps % outlet_interval == 0)
-        empty_outlets(simulation.outflow, simulation.state, simulation.network);
+    State& state = simulation.state;
+    const Model& model = simulation.model;
+    Exchange exchange;
+    const std::size_t there = state.count();
+    for (auto& source : simulation.pours) pour(source, state, model);
+    for (std::size_t i = there; i < state.count(); ++i) exchange.energy += sphere_energy(state, model, i);
+    exchange.came = static_cast<std::int64_t>(state.count() - there);
+    if (state.steps % outlet_interval != 0) return exchange;
+    for (std::size_t i = 0; i < state.count(); ++i)
+        if (state.leaving[i]) exchange.energy -= sphere_energy(state, model, i);
+    exchange.left = simulation.outflow.count;
+    empty_outlets(simulation.outflow, state, simulation.network);
+    exchange.left = simulation.outflow.count - exchange.left;
+    return exchange;
 }
 
 } // namespace
@@ -88,8 +99,10 @@ bool IncidentPolicy::stops(const StepReport& report) const
 
 StepReport advance(Simulation& simulation, const PhaseObserver& observer)
 {
-    let_in_and_out(simulation);
-    return advance(simulation.state, simulation.network, simulation.model, observer);
+    const Exchange exchange = let_in_and_out(simulation);
+    StepReport report = advance(simulation.state, simulation.network, simulation.model, observer);
+    report.exchange = exchange;
+    return report;
 }
 
 PreparedStep prepare_step(Simulation& simulation)

@@ -96,6 +96,13 @@ double potential_energy(const State& state, const Vec3& gravity)
     return sum;
 }
 
+double sphere_energy(const State& state, const Model& model, std::size_t i)
+{
+    const Body& body = state.body(i);
+    const Vec3 gravity = model.gravity - model.periodicity.part_along(model.gravity);
+    return body.kinetic_energy() - body.mass() * gravity.dot(state.position[i]);
+}
+
 Vec3 linear_momentum(const State& state)
 {
     Vec3 sum = Vec3::Zero();

@@ -14,8 +14,11 @@ namespace talus
 
 double kinetic_energy(const State& state);                        ///< of the spheres [J]
 double potential_energy(const State& state, const Vec3& gravity); ///< −Σ m g·x of the spheres [J]
-Vec3 linear_momentum(const State& state);                         ///< Σ m v [kg m/s]
-Vec3 angular_momentum(const State& state);                        ///< Σ (x × m v + I ω) about the origin [kg m²/s]
+/// Of one sphere, kinetic and potential, periodic axes left out [J].
+double sphere_energy(const State& state, const Model& model, std::size_t i);
+
+Vec3 linear_momentum(const State& state);  ///< Σ m v [kg m/s]
+Vec3 angular_momentum(const State& state); ///< Σ (x × m v + I ω) about the origin [kg m²/s]
 
 /// Linear and angular momentum, the latter about the origin.
 struct Momentum {

@@ -25,11 +25,18 @@ struct Approach {
     std::int64_t wall = -1;   ///< the wall's index; −1: a sphere
 };
 
+/// What pours and outlets carried in and out between two steps.
+struct Exchange {
+    std::int64_t came = 0, left = 0; ///< spheres
+    double energy = 0.0;             ///< of those that came less of those that left [J]
+};
+
 /// How a step went, by the stage that found it. Returned by value, so nothing leaks from one step into the next. Of a
 /// step that was split, each part says what of its sub-steps it keeps (`then`).
 struct StepReport {
     int sub_steps = 1;  ///< into which the step was split …
     Approach split_for; ///< … for the sake of these; of a step that was split
+    Exchange exchange;  ///< before the step
     SearchReport search;
     ContactSurvey contacts;
     SolveReport solve;

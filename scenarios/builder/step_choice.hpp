@@ -15,7 +15,7 @@ namespace talus
 struct StepTargets {
     double overlap = 0.002; ///< mean of loaded contacts, of what the law's own softness makes [d]
     double creep = 0.0036;  ///< h by a sweep, of those that a step makes at least [sqrt(d/gravity)]
-    double approach = 0.09; ///< how far two surfaces that will touch come nearer in a step [d]
+    double approach = 0.085; ///< how far two surfaces that will touch come nearer in a step [d]
 };
 
 /// The step of a run, and what it was chosen from.

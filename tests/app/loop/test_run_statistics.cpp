@@ -64,6 +64,23 @@ TEST_CASE("what loads and walls put in is no gain", "[app][energy]")
     CHECK(balance.lost() == 0.0);
 }
 
+TEST_CASE("what is lost in steps in which spheres come and go counts, and what they carry does not", "[app][energy]")
+{
+    EnergyBalance balance;
+    const auto step = [&](double carried, double energy) {
+        StepReport r = report(energy, 0.0, 0.0);
+        r.exchange.energy = carried;
+        balance.add(r, true);
+    };
+    step(0.0, 3.0);
+    step(2.0, 4.0);  // of 5
+    step(-1.5, 2.0); // of 2.5
+    step(0.0, 2.0);
+    step(0.0, 2.0);
+    CHECK(balance.lost() == Approx(1.5));
+    CHECK(balance.gained() == 0.0);
+}
+
 TEST_CASE("what spheres bring in and take away is not the steps' doing", "[app][energy]")
 {
     EnergyBalance balance;

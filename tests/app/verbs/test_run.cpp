@@ -54,8 +54,7 @@ TEST_CASE("beads that are poured gain no energy from what blows leave overlappin
     const std::string seed = std::to_string(GENERATE(1, 2, 3));
     REQUIRE(place.talus("run pile --until 0.5 --threads 1 -o out --set seed=" + seed).exit_code == 0);
     const json energy = json::parse(place.read("out/summary.json"))["error"]["energy"];
-    // 0.9 J in all; what is lost in steps in which a bead comes in is not counted.
-    CHECK(energy["lost"] > 0.3);
+    CHECK(energy["lost"] > 0.8); // of some 1.3 J that beads bring in until then, a part of which they still have
     CHECK(energy["gained"] < 5e-4 * energy["lost"].get<double>());
 }
 

@@ -65,7 +65,7 @@ TEST_CASE("the automatic step is the longest that keeps to all targets", "[step_
     CHECK(h == choice.by_approach); // they fall 0.8 m
     CHECK(choice.by_creep == Approx(choice.min_sweeps * 0.0036 * std::sqrt(0.008 / 9.81)));
     CHECK(h > (choice.min_sweeps - 1) * 0.0036 * std::sqrt(0.008 / 9.81)); // fewer sweeps would not do
-    CHECK(h * choice.closing_speed == Approx(0.09 * 0.008));
+    CHECK(h * choice.closing_speed == Approx(0.085 * 0.008));
     CHECK_THAT(report.step, Contains("approach of what closes at") && Contains("d = 8 mm"));
 }
 
@@ -256,7 +256,7 @@ TEST_CASE("without gravity the speeds alone decide the step", "[step_choice]")
     auto scene = small_scene();
     scene.world.gravity.setZero();
     scene.fill[0].velocity = Vec3(2.0, 0, 0);
-    CHECK(build_scene(scene).simulation.model.time_step == Approx(0.09 * 0.01 / 2.0));
+    CHECK(build_scene(scene).simulation.model.time_step == Approx(0.085 * 0.01 / 2.0));
     CHECK(build_scene(scene).simulation.model.solver.min_sweeps == 2);
 }
 
@@ -374,7 +374,7 @@ TEST_CASE("without gravity the load of a piston decides the step where nothing e
     scene.wall[0].guide = Vec3::UnitX();
     scene.wall[0].load = {{0.0, 30.0}};
     const double across = 0.05; // the box
-    CHECK(choice_of(scene).by_approach == Approx(0.09 * 0.01 / std::sqrt(2.0 * 30.0 * across)));
+    CHECK(choice_of(scene).by_approach == Approx(0.085 * 0.01 / std::sqrt(2.0 * 30.0 * across)));
 }
 
 TEST_CASE("a wall that moves along its normal adds its speed", "[step_choice]")
