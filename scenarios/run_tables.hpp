@@ -43,8 +43,8 @@ struct TargetsTable {
             "time step by the least number of sweeps, in sqrt(smallest diameter / gravity); auto: what accuracy picks, "
             "else 0.0036");
         key("approach", self.approach, positive, "d",
-            "how far surfaces that will touch come nearer to each other in a step, in smallest diameters; auto: what "
-            "accuracy picks, else 0.085");
+            "how far surfaces come nearer to each other in a step, of which one has been thrown back, in smallest "
+            "diameters; auto: what accuracy picks, else 0.1");
     }
 };
 

@@ -15,7 +15,7 @@ namespace talus
 struct StepTargets {
     double overlap = 0.002; ///< mean of loaded contacts, of what the law's own softness makes [d]
     double creep = 0.0036;  ///< h by a sweep, of those that a step makes at least [sqrt(d/gravity)]
-    double approach = 0.085; ///< how far two surfaces that will touch come nearer in a step [d]
+    double approach = 0.1;  ///< how far two surfaces come nearer in a step, one of them thrown back [d]
 };
 
 /// The step of a run, and what it was chosen from.
@@ -28,6 +28,7 @@ struct StepChoice {
     double by_approach = infinity;
     double by_heavy = infinity; ///< that keeps what lies below the heaviest sphere from overlapping by 0.02 d [s]
     double closing_speed = 0.0; ///< of surfaces that will touch, at most [m/s]
+    double restitution = 0.0;   ///< with which these part, at most
     double speed_limit = 0.0;   ///< what is faster is a blow-up [m/s]
 
     double by_samples = infinity; ///< the time between samples, which it is no longer than [s]
