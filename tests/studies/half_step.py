@@ -105,14 +105,15 @@ def page(found, scenes):
         cpu = [statistics.fmean(run["cpu"] for run in runs) for runs in (whole, half)]
         step = whole[0]["summary"]["time"]["step"]
         split = sum(run["summary"]["error"]["sub_steps"]["steps"] for run in whole)
-        costs.append(f"| {scene} | {1e3 * step:.4g} | {cpu[0]:.0f} | {cpu[1]:.0f} | {overlaps(whole)} | {overlaps(half)} | "
-                     f"{split} |")
+        costs.append(f"| {scene} | {1e3 * step:.4g} | {cpu[0]:.0f} | {cpu[1]:.0f} | {overlaps(whole)} | "
+                     f"{overlaps(half)} | {split} |")
     text = ("# Results at the automatic step and at half of it\n\nWritten by `tests/studies/half_step.py` at "
             f"{commit()} on {processor()}: whole runs of three seeds, of the pile of twelve.\n\n"
             "| scene | result | automatic | half | change | two standard errors, and their limit | within |\n"
             "| --- | --- | --- | --- | --- | --- | --- |\n"
-            + "\n".join(changes) + "\n\nA change may be as large as two standard errors of a difference, √2 times that of "
-            "one mean.\n\n| scene | step [ms] | CPU [s] | at half | overlap, mean and worst [% d] | at half | steps split |\n"
+            + "\n".join(changes) + "\n\nA change may be as large as two standard errors of a difference, √2 times that "
+            "of one mean.\n\n"
+            "| scene | step [ms] | CPU [s] | at half | overlap, mean and worst [% d] | at half | steps split |\n"
             "| --- | --- | --- | --- | --- | --- | --- |\n" + "\n".join(costs) + "\n")
     return text, kept
 
