@@ -14,20 +14,16 @@ namespace talus
 namespace
 {
 
-constexpr double falling_share = 0.25; ///< of what a sphere takes in a bed, while it touches nothing (measured)
-constexpr double around_steps = 2.0;   ///< frames, reports, and what real flows take more (measured)
+constexpr double falling_share = 0.25;  ///< of what a sphere takes in a bed, while it touches nothing (measured)
+constexpr double around_steps = 2.0;    ///< frames, reports, and what real flows take more (measured)
 constexpr double loosely_packed = 0.55; ///< of its room, what the bed that is measured fills
-constexpr double loosely = 0.3;        ///< of its region, what a pour can fill at a time
+constexpr double loosely = 0.3;         ///< of its region, what a pour can fill at a time
 constexpr int settling = 40, timed = 60;
 constexpr double fewest = 100.0;  ///< spheres of the bed that is measured
 constexpr double narrowest = 5.0; ///< its width in diameters, at least
-
-/// What is measured at most. The sweeps of a soft bed hardly grow with its depth, those of a rigid one do.
-struct Sample {
-    double spheres, depth; ///< depth in diameters
-
-    explicit Sample(bool deep) : spheres(deep ? 6000.0 : 1500.0), depth(deep ? 200.0 : 12.0) {}
-};
+// The sweeps of a soft bed hardly grow with its depth; those of a deep one, whose pressures are scaled, do.
+constexpr double most = 1500.0, most_deep = 6000.0;    ///< spheres of it, at most
+constexpr double deepest = 12.0, deepest_deep = 200.0; ///< its depth in diameters, at most
 
 double gravity_of(const Model& model)
 {
@@ -90,52 +86,76 @@ void complete_laws(scene::Scene& scene, const std::string& material)
     scene.contact.push_back(law);
 }
 
-/// A flow of so many of the scene's spheres down a slope, periodic to all sides; where pressures are scaled, which
-/// periodic axes do not allow, a bed in a box.
-Simulation small_flow(const OpenedScene& opened, double count, double depth)
+/// How wide and how high so many spheres stand, loosely packed, at this depth in diameters at most [m].
+struct Room {
+    double width, height;
+
+    Room(double count, double layers, double d)
+    {
+        const double volume = count * volume_of_sphere(d) / loosely_packed;
+        width = std::max(narrowest * d, std::sqrt(volume / (layers * d)));
+        height = volume / (width * width) + d;
+    }
+};
+
+/// So many of the scene's spheres on a floor, with its step and its solver; neither has a place yet.
+scene::Scene sample_of(const OpenedScene& opened, double count)
 {
     const scene::Scene& of = opened.scene;
     const Model& model = opened.simulation.model;
-    const bool boxed = model.solver.pressure_scaling;
-    const double d = model.mean_diameter, room = count * volume_of_sphere(d) / loosely_packed;
-    const double layers = std::clamp(depth, 2.0, Sample(boxed).depth);
-    const double width = std::max(narrowest * d, std::sqrt(room / (layers * d)));
-    const double height = room / (width * width) + d;
-    scene::Scene small;
-    small.solver = of.solver;
-    small.solver.stabilisation = model.solver.stabilisation == Stabilisation::matched ? "matched" : "projected";
-    small.solver.min_sweeps = model.solver.min_sweeps;
-    small.solver.pressure_scaling = {boxed, ""};
-    small.solver.tolerance = {model.solver.tolerance, ""};
-    small.time.step = {model.time_step, ""};
-    small.time.duration = 0.0;
-    if (!boxed) {
-        small.world.periodic = {"x", "y"};
-        small.world.min = Vec3(0, 0, -infinity);
-        small.world.max = Vec3(width, width, infinity);
-    }
-    small.world.rotation = of.world.rotation;
-    const double g = gravity_of(model);
-    small.world.gravity = boxed ? Vec3(0, 0, -g) : Vec3(0.4 * g, 0, -0.9 * g);
-    small.materials = of.materials;
-    small.contact = of.contact;
+    scene::Scene sample;
+    sample.solver = of.solver;
+    sample.solver.stabilisation = model.solver.stabilisation == Stabilisation::matched ? "matched" : "projected";
+    sample.solver.min_sweeps = model.solver.min_sweeps;
+    sample.solver.pressure_scaling = {model.solver.pressure_scaling, ""};
+    sample.solver.tolerance = {model.solver.tolerance, ""};
+    sample.time.step = {model.time_step, ""};
+    sample.time.duration = 0.0;
+    sample.world.rotation = of.world.rotation;
+    sample.materials = of.materials;
+    sample.contact = of.contact;
     const auto& used = of.materials[static_cast<std::size_t>(*sphere_materials(opened.simulation).begin())].name;
-    complete_laws(small, used);
-    auto& fill = small.fill.emplace_back();
+    complete_laws(sample, used);
+    auto& fill = sample.fill.emplace_back();
     fill.material = used;
-    fill.arrangement = boxed ? "lattice" : "dense";
-    fill.spacing = 1.0;
     fill.count = static_cast<std::int64_t>(count);
-    fill.diameter.value = d;
-    fill.region.min = Vec3(0, 0, boxed ? 0.0 : d);
-    fill.region.max = Vec3(width, width, boxed ? 2.0 * height : d + height);
-    auto& floor = small.wall.emplace_back();
+    fill.diameter.value = model.mean_diameter;
+    auto& floor = sample.wall.emplace_back();
     floor.name = "floor";
-    floor.shape = boxed ? "box" : "plane";
     floor.material = used;
-    floor.max = Vec3(width, width, 3.0 * height);
-    if (boxed) floor.open = {"z+"};
-    return build_scene(small).simulation;
+    return sample;
+}
+
+/// A flow down a slope, periodic to all sides.
+Simulation small_flow(const OpenedScene& opened, double count, double depth)
+{
+    const double d = opened.simulation.model.mean_diameter, g = gravity_of(opened.simulation.model);
+    const Room room(count, std::clamp(depth, 2.0, deepest), d);
+    scene::Scene flow = sample_of(opened, count);
+    flow.world.periodic = {"x", "y"};
+    flow.world.min = Vec3(0, 0, -infinity);
+    flow.world.max = Vec3(room.width, room.width, infinity);
+    flow.world.gravity = Vec3(0.4 * g, 0, -0.9 * g);
+    flow.fill[0].arrangement = "dense";
+    flow.fill[0].region.min = Vec3(0, 0, d);
+    flow.fill[0].region.max = Vec3(room.width, room.width, d + room.height);
+    flow.wall[0].shape = "plane";
+    return build_scene(flow).simulation;
+}
+
+/// A deep bed in a box, since pressures are not scaled along periodic axes. It stands as a lattice that touches.
+Simulation small_column(const OpenedScene& opened, double count, double depth)
+{
+    const Model& model = opened.simulation.model;
+    const Room room(count, std::clamp(depth, 2.0, deepest_deep), model.mean_diameter);
+    scene::Scene column = sample_of(opened, count);
+    column.world.gravity = Vec3(0, 0, -gravity_of(model));
+    column.fill[0].spacing = 1.0;
+    column.fill[0].region.max = Vec3(room.width, room.width, 2.0 * room.height);
+    column.wall[0].shape = "box";
+    column.wall[0].max = Vec3(room.width, room.width, 3.0 * room.height);
+    column.wall[0].open = {"z+"};
+    return build_scene(column).simulation;
 }
 
 /// What a sphere takes in a step [s].
@@ -143,11 +163,12 @@ double sphere_step(const OpenedScene& opened, double count, double depth)
 {
     const int threads = omp_get_max_threads();
     omp_set_num_threads(1);
-    const double n = std::clamp(count, fewest, Sample(opened.simulation.model.solver.pressure_scaling).spheres);
-    Simulation flow = small_flow(opened, n, depth);
-    for (int k = 0; k < settling; ++k) advance(flow);
+    const bool is_deep = opened.simulation.model.solver.pressure_scaling;
+    const double n = std::clamp(count, fewest, is_deep ? most_deep : most);
+    Simulation bed = is_deep ? small_column(opened, n, depth) : small_flow(opened, n, depth);
+    for (int k = 0; k < settling; ++k) advance(bed);
     const std::clock_t begin = std::clock();
-    for (int k = 0; k < timed; ++k) advance(flow);
+    for (int k = 0; k < timed; ++k) advance(bed);
     const double took = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     omp_set_num_threads(threads);
     return took / timed / n;

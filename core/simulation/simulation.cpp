@@ -28,11 +28,12 @@ Exchange let_in_and_out(Simulation& simulation)
     for (std::size_t i = there; i < state.count(); ++i) exchange.energy += sphere_energy(state, model, i);
     exchange.came = static_cast<std::int64_t>(state.count() - there);
     if (state.steps % outlet_interval != 0) return exchange;
-    for (std::size_t i = 0; i < state.count(); ++i)
-        if (state.leaving[i]) exchange.energy -= sphere_energy(state, model, i);
-    exchange.left = simulation.outflow.count;
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        if (!state.leaving[i]) continue;
+        ++exchange.left;
+        exchange.energy -= sphere_energy(state, model, i);
+    }
     empty_outlets(simulation.outflow, state, simulation.network);
-    exchange.left = simulation.outflow.count - exchange.left;
     return exchange;
 }
 

@@ -29,8 +29,7 @@ std::string explain_step(const StepChoice& choice, double d)
     if (choice.given)
         return text("step %.4g ms: given by the scene (auto would be %.4g ms)", 1e3 * choice.step, 1e3 * automatic);
     const std::pair<double, std::string> targets[] = {
-        {choice.by_approach,
-            text("the approach of what closes at %.3g m/s", (1.0 + choice.restitution) * choice.closing_speed)},
+        {choice.by_approach, text("the approach of what closes at %.3g m/s", choice.meeting_speed())},
         {choice.by_overlap, "the mean overlap of the bed"}, {choice.by_creep, "the creep of a bed at rest"},
         {choice.by_heavy, "the overlap below its heaviest sphere"},
         {choice.by_samples == automatic ? automatic : infinity, "the time between samples"}};

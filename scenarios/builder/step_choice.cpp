@@ -57,9 +57,8 @@ StepChoice longest_with(int sweeps, const Model& model, const Bed& bed, const So
     StepChoice choice;
     choice.min_sweeps = sweeps;
     choice.closing_speed = closing_speed;
-    // What has been thrown back meets what comes after it.
     choice.restitution = std::ranges::max(model.materials.laws, {}, &ContactLaw::restitution).restitution;
-    choice.by_approach = targets.approach * d / ((1.0 + choice.restitution) * closing_speed);
+    choice.by_approach = targets.approach * d / choice.meeting_speed();
     choice.by_heavy = borne * time_of_fall * std::sqrt(soft ? 0.5 * sweeps : 1.0);
     choice.by_creep = (soft ? std::min(sweeps, most_sweeps) * targets.creep : rigid_step) * time_of_fall;
     if (soft)

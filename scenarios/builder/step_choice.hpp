@@ -33,6 +33,9 @@ struct StepChoice {
 
     double by_samples = infinity; ///< the time between samples, which it is no longer than [s]
 
+    /// With which what has been thrown back meets what comes after it, at most [m/s].
+    double meeting_speed() const { return (1.0 + restitution) * closing_speed; }
+
     /// Infinite where neither gravity nor a speed says anything.
     double automatic() const
     {

@@ -4,30 +4,32 @@
 
     tests/studies/half_step.py [SCENE…]
 
-Whole runs on one thread, three seeds or more, as many at a time as there are processors, into build/half_step; what
-is there from the same program is not run again. Writes tests/studies/results/half_step.md when all scenes are there.
+Whole runs on one thread, three seeds or more, as many at a time as there are processors, where validation has its runs;
+what is there from the same program is not run again. Writes tests/studies/results/half_step.md when all scenes are
+there.
 
 A standard error is that of the mean over the seeds: from their scatter at both steps, or what the sensor gives of
-itself where that is more. Exit codes: 0 each result changes by less than two standard errors, and these are within
-their limits; 1 one does not, or a run failed.
+itself where that is more. Exit codes: 0 each result changes by less than two standard errors of a difference, and two
+of its own are within their limit; 1 one does not, or a run failed.
 """
 import concurrent.futures
-import json
 import math
 import os
 import statistics
-import subprocess
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path.insert(0, str(ROOT / "tests/support"))
-from source import commit, digest_of, processor  # noqa: E402  found by the line above
+sys.path[:0] = [str(ROOT / folder) for folder in ("tests/validation", "tests/support", "postprocess")]
+from case import SEEDS, Simulation  # noqa: E402  found by the line above
+from making import RunFailed, make  # noqa: E402
+from source import commit, processor  # noqa: E402
 
-FOLDER, PROGRAM = ROOT / "build/half_step", ROOT / "build/talus"
-SEEDS = {"pile": 12}  # where the results of three scatter too much
 STEPS = (1.0, 0.5)
+MORE_SEEDS = {"pile": tuple(range(1, 13))}  # where the results of three scatter too much
+# What a scene must be given so that its results are means over long enough.
+LONGER = {"vibrated_bed": {"time.duration": 8.5, "sensor.box.to": 8.5}}
 # By scene: the results, and how large two standard errors of each may be, in its unit or as a share of it.
 RESULTS = {
     "hopper": {("outlet", "mass_flow"): "2 %"},
@@ -37,44 +39,22 @@ RESULTS = {
     "vibrated_bed": {("box", "force_z"): "4 %"},
 }
 
-# What a scene must be given so that its results are means over long enough.
-LONGER = {"vibrated_bed": ["--set", "time.duration=8.5", "--set", "sensor.box.to=8.5"]}
 
-
-def seeds_of(scene):
-    return range(1, 1 + SEEDS.get(scene, 3))
-
-
-def run(scene, seed, step, given, made_of):
-    """The summary of a run at this share of the automatic step, with what is given, and its CPU seconds."""
-    store = FOLDER / f"{scene}_{step:g}_{seed}.json"
-    found = json.loads(store.read_text()) if store.is_file() else {}
-    if found.get("made_of") == made_of:
-        return found
-    folder = store.with_suffix("")
-    command = [PROGRAM, "run", scene, "--quiet", "--force", "--threads", "1", "--seed", str(seed), "-o", folder,
-               *LONGER.get(scene, []), *given]
-    process = subprocess.Popen(command, cwd=ROOT)
-    _, status, usage = os.wait4(process.pid, 0)
-    if status:
-        raise RuntimeError(f"{scene}, seed {seed}, step x{step:g} failed")
-    summary = json.loads((folder / "summary.json").read_text())
-    found = {"made_of": made_of, "cpu": usage.ru_utime + usage.ru_stime, "summary": summary}
-    store.write_text(json.dumps(found))
-    print(f"{scene}, seed {seed}, step x{step:g}: {found['cpu']:.0f} s", flush=True)
-    return found
+def run(scene, seed, step, settings):
+    """The summary of a run at this share of the automatic step."""
+    name = f"half_step_{scene}_{step:g}_{seed}"
+    return make(ROOT / "build/talus", Simulation(name, scene, LONGER.get(scene, {}) | settings, seed)).summary()
 
 
 def run_at_both(scene, seed):
-    made_of = digest_of([PROGRAM], *LONGER.get(scene, []))
-    whole = run(scene, seed, 1.0, [], made_of)
-    half = ["--set", f"time.step={0.5 * whole['summary']['time']['step']:.17g}"]
-    return {1.0: whole, 0.5: run(scene, seed, 0.5, half, made_of)}
+    """Their summaries, by the share of the automatic step."""
+    whole = run(scene, seed, 1.0, {})
+    return {1.0: whole, 0.5: run(scene, seed, 0.5, {"time.step": 0.5 * whole["time"]["step"]})}
 
 
 def compared(runs, sensor, quantity, most):
     """A row of the table by the runs of both steps, and whether the result keeps to it."""
-    results = {step: [run["summary"]["sensors"][sensor][quantity] for run in runs[step]] for step in STEPS}
+    results = {step: [summary["sensors"][sensor][quantity] for summary in runs[step]] for step in STEPS}
     means = {step: statistics.fmean(r["value"] for r in found) for step, found in results.items()}
     scatter = statistics.fmean(statistics.variance(r["value"] for r in found) for found in results.values())
     own = statistics.fmean(r["spread"] ** 2 for found in results.values() for r in found)
@@ -89,7 +69,7 @@ def compared(runs, sensor, quantity, most):
 
 def overlaps(runs):
     """Mean and worst over the seeds, in percent of a diameter."""
-    found = [run["summary"]["error"]["overlap_d"] for run in runs]
+    found = [summary["error"]["overlap_d"] for summary in runs]
     return f"{100 * statistics.fmean(o['mean'] for o in found):.2g}, {100 * max(o['worst'] for o in found):.1f}"
 
 
@@ -102,9 +82,9 @@ def page(found, scenes):
             changes.append(f"| {scene} | {row} |")
             kept = kept and good
         whole, half = found[scene][1.0], found[scene][0.5]
-        cpu = [statistics.fmean(run["cpu"] for run in runs) for runs in (whole, half)]
-        step = whole[0]["summary"]["time"]["step"]
-        split = sum(run["summary"]["error"]["sub_steps"]["steps"] for run in whole)
+        cpu = [statistics.fmean(summary["timing"]["cpu"] for summary in runs) for runs in (whole, half)]
+        step = whole[0]["time"]["step"]
+        split = sum(summary["error"]["sub_steps"]["steps"] for summary in whole)
         costs.append(f"| {scene} | {1e3 * step:.4g} | {cpu[0]:.0f} | {cpu[1]:.0f} | {overlaps(whole)} | "
                      f"{overlaps(half)} | {split} |")
     text = ("# Results at the automatic step and at half of it\n\nWritten by `tests/studies/half_step.py` at "
@@ -123,11 +103,14 @@ def main():
     unknown = [scene for scene in scenes if scene not in RESULTS]
     if unknown:
         sys.exit(f"{', '.join(unknown)}: not one of {', '.join(RESULTS)}")
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    jobs = [(scene, seed) for scene in scenes for seed in seeds_of(scene)]
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        done = dict(zip(jobs, pool.map(lambda job: run_at_both(*job), jobs)))
-    found = {scene: {step: [done[scene, seed][step] for seed in seeds_of(scene)] for step in STEPS} for scene in scenes}
+    jobs = [(scene, seed) for scene in scenes for seed in MORE_SEEDS.get(scene, SEEDS)]
+    try:
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            summaries = list(pool.map(lambda job: run_at_both(*job), jobs))
+    except RunFailed as error:
+        sys.exit(str(error))
+    found = {scene: {step: [of[step] for job, of in zip(jobs, summaries) if job[0] == scene] for step in STEPS}
+             for scene in scenes}
     text, kept = page(found, scenes)
     print(text)
     if scenes == list(RESULTS):
