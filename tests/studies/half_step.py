@@ -5,14 +5,15 @@
     tests/studies/half_step.py [SCENE…]
 
 Whole runs on one thread, three seeds or more, as many at a time as there are processors, where validation has its runs;
-what is there from the same program is not run again. Writes tests/studies/results/half_step.md when all scenes are
-there.
+what is there from the same program is not run again. Writes tests/studies/results/half_step.md; scenes that are not
+asked for keep what results/half_step.json has of them.
 
 A standard error is that of the mean over the seeds: from their scatter at both steps, or what the sensor gives of
-itself where that is more. Exit codes: 0 each result changes by less than two standard errors of a difference, and two
-of its own are within their limit; 1 one does not, or a run failed.
+itself where that is more. Exit codes: 0 each result of these scenes changes by less than two standard errors of a
+difference, and two of its own are within their limit; 1 one does not, or a run failed.
 """
 import concurrent.futures
+import json
 import math
 import os
 import statistics
@@ -26,6 +27,7 @@ from case import SEEDS, Simulation  # noqa: E402  found by the line above
 from making import RunFailed, make  # noqa: E402
 from source import commit, processor  # noqa: E402
 
+STORE = HERE / "results/half_step.json"
 STEPS = (1.0, 0.5)
 MORE_SEEDS = {"pile": tuple(range(1, 13))}  # where the results of three scatter too much
 # What a scene must be given so that its results are means over long enough.
@@ -73,29 +75,29 @@ def overlaps(runs):
     return f"{100 * statistics.fmean(o['mean'] for o in found):.2g}, {100 * max(o['worst'] for o in found):.1f}"
 
 
-def page(found, scenes):
-    """The page, and whether all is kept."""
-    changes, costs, kept = [], [], True
-    for scene in scenes:
-        for (sensor, quantity), most in RESULTS[scene].items():
-            row, good = compared(found[scene], sensor, quantity, most)
-            changes.append(f"| {scene} | {row} |")
-            kept = kept and good
-        whole, half = found[scene][1.0], found[scene][0.5]
-        cpu = [statistics.fmean(summary["timing"]["cpu"] for summary in runs) for runs in (whole, half)]
-        step = whole[0]["time"]["step"]
-        split = sum(summary["error"]["sub_steps"]["steps"] for summary in whole)
-        costs.append(f"| {scene} | {1e3 * step:.4g} | {cpu[0]:.0f} | {cpu[1]:.0f} | {overlaps(whole)} | "
-                     f"{overlaps(half)} | {split} |")
-    text = ("# Results at the automatic step and at half of it\n\nWritten by `tests/studies/half_step.py` at "
-            f"{commit()} on {processor()}: whole runs of three seeds, of the pile of twelve.\n\n"
-            "| scene | result | automatic | half | change | two standard errors, and their limit | within |\n"
-            "| --- | --- | --- | --- | --- | --- | --- |\n"
-            + "\n".join(changes) + "\n\nA change may be as large as two standard errors of a difference, √2 times that "
-            "of one mean.\n\n"
-            "| scene | step [ms] | CPU [s] | at half | overlap, mean and worst [% d] | at half | steps split |\n"
-            "| --- | --- | --- | --- | --- | --- | --- |\n" + "\n".join(costs) + "\n")
-    return text, kept
+def measured(scene, runs):
+    """What the page says of a scene."""
+    rows = [compared(runs, sensor, quantity, most) for (sensor, quantity), most in RESULTS[scene].items()]
+    cpu = [statistics.fmean(summary["timing"]["cpu"] for summary in runs[step]) for step in STEPS]
+    split = sum(summary["error"]["sub_steps"]["steps"] for summary in runs[1.0])
+    cost = (f"{1e3 * runs[1.0][0]['time']['step']:.4g} | {cpu[0]:.0f} | {cpu[1]:.0f} | {overlaps(runs[1.0])} | "
+            f"{overlaps(runs[0.5])} | {split} | {len(runs[1.0])} | {commit()} | {processor()}")
+    return {"results": [row for row, _ in rows], "kept": all(kept for _, kept in rows), "cost": cost}
+
+
+def page(stored):
+    lines = ["# Results at the automatic step and at half of it", "",
+             "Written by `tests/studies/half_step.py` from whole runs.", "",
+             "| scene | result | automatic | half | change | two standard errors, and their limit | within |",
+             "| --- | --- | --- | --- | --- | --- | --- |"]
+    for scene in RESULTS:
+        lines += [f"| {scene} | {row} |" for row in stored.get(scene, {}).get("results", ["not run yet | | | | |"])]
+    lines += ["", "A change may be as large as two standard errors of a difference, √2 times that of one mean.", "",
+              "| scene | step [ms] | CPU [s] | at half | overlap, mean and worst [% d] | at half | steps split | seeds | "
+              "commit | processor |",
+              "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
+    lines += [f"| {scene} | {stored[scene]['cost']} |" for scene in RESULTS if scene in stored]
+    return "\n".join(lines) + "\n"
 
 
 def main():
@@ -103,19 +105,21 @@ def main():
     unknown = [scene for scene in scenes if scene not in RESULTS]
     if unknown:
         sys.exit(f"{', '.join(unknown)}: not one of {', '.join(RESULTS)}")
-    jobs = [(scene, seed) for scene in scenes for seed in MORE_SEEDS.get(scene, SEEDS)]
-    try:
-        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            summaries = list(pool.map(lambda job: run_at_both(*job), jobs))
-    except RunFailed as error:
-        sys.exit(str(error))
-    found = {scene: {step: [of[step] for job, of in zip(jobs, summaries) if job[0] == scene] for step in STEPS}
-             for scene in scenes}
-    text, kept = page(found, scenes)
-    print(text)
-    if scenes == list(RESULTS):
-        (HERE / "results/half_step.md").write_text(text, encoding="utf-8")
-    return 0 if kept else 1
+    stored = json.loads(STORE.read_text()) if STORE.is_file() else {}
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        pending = {scene: [pool.submit(run_at_both, scene, seed) for seed in MORE_SEEDS.get(scene, SEEDS)]
+                   for scene in scenes}
+        for scene in scenes:
+            try:
+                found = [job.result() for job in pending[scene]]
+            except RunFailed as error:
+                pool.shutdown(cancel_futures=True)
+                sys.exit(str(error))
+            stored[scene] = measured(scene, {step: [of[step] for of in found] for step in STEPS})
+            STORE.write_text(json.dumps(stored, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+            STORE.with_suffix(".md").write_text(page(stored), encoding="utf-8")
+    print(page(stored))
+    return 0 if all(stored[scene]["kept"] for scene in scenes) else 1
 
 
 if __name__ == "__main__":
