@@ -94,8 +94,8 @@ struct SolverTable {
             Allowed{.min = 0.0, .max = 1.0, .open = true, .names = {"auto", "draft", "standard", "fine", "reference"}},
             "",
             "relative residual that ends the sweeps: 5e-2, 1e-2, 1e-3, 1e-4, or a number; auto: standard, or what "
-            "accuracy picks; fine where a sphere has 500 times the mass of another, and with restitution without "
-            "gravity");
+            "accuracy picks; down to fine where a sphere has more than 5 times the mass of another, and fine with "
+            "restitution without gravity");
         key("min_sweeps", self.min_sweeps, between(0, 10000), "",
             "least number of sweeps in a step; 0: with matched 2 to 4, more in longer steps; 3 with projected, 6 where "
             "pressures are scaled in a bed of a hundred grains or deeper");

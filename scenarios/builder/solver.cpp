@@ -14,7 +14,7 @@ namespace talus
 namespace
 {
 
-constexpr double very_heavy = 500.0; ///< a sphere, times the lightest: on eight of its diameters or more it may hop
+constexpr double heavy = 5.0; ///< a sphere, times the lightest: beyond that the tolerance falls as this ratio grows
 constexpr double fine = 1e-3;
 
 bool pressure_is_scaled(const scene::SwitchOrName& asked, const BedMeasures& bed, const Model& model)
@@ -49,9 +49,10 @@ template <class... Numbers> std::string text(const char* format, Numbers... numb
 
 std::string explain(const SolverSettings& solver, const BedMeasures& bed)
 {
-    const std::string found = bed.mass_ratio >= very_heavy
-                                  ? text("the heaviest sphere is %.3g times the lightest", bed.mass_ratio)
-                                  : text("the spheres stand %.3g diameters high", bed.depth);
+    std::string found;
+    if (bed.mass_ratio > heavy) found = text("the heaviest sphere is %.3g times the lightest", bed.mass_ratio);
+    if (needs_rigid_contacts({.depth = bed.depth}))
+        found += text("%sthe spheres stand %.3g diameters high", found.empty() ? "" : ", and ", bed.depth);
     return text("stabilisation %s and tolerance %g, for %s",
         solver.stabilisation == Stabilisation::projected ? "projected" : "matched", solver.tolerance, found.c_str());
 }
@@ -64,6 +65,13 @@ double tolerance(const scene::NumberOrName& value, double automatic)
     if (value.name == "fine") return fine;
     if (value.name == "reference") return 1e-4;
     return value.number;
+}
+
+/// What a tolerance on impulses leaves undone of what a light sphere bears, is as much more of the sphere's own
+/// momentum as what it bears is heavier.
+double tolerance_under(double mass_ratio, double usual)
+{
+    return std::clamp(usual * heavy / mass_ratio, std::min(fine, usual), usual);
 }
 
 } // namespace
@@ -104,6 +112,7 @@ SolverChoice complete_solver(
     const scene::SolverTable& table = scene.solver;
     const bool scaled = pressure_is_scaled(table.pressure_scaling, bed, model);
     std::string explanation;
+    if (table.tolerance.name == "auto") solver.tolerance = tolerance_under(bed.mass_ratio, solver.tolerance);
     if (scene.accuracy.empty()) { // else measured settings decide
         if (table.stabilisation == "auto" && scaled && needs_rigid_contacts(bed) && may_be_rigid(simulation)) {
             solver.stabilisation = Stabilisation::projected;
@@ -111,8 +120,8 @@ SolverChoice complete_solver(
                 solver.min_sweeps = std::min(usual_sweeps(solver.stabilisation), solver.max_sweeps);
         }
         const bool gas = model.gravity.isZero() && model.physics.restitution;
-        if (table.tolerance.name == "auto" && (bed.mass_ratio >= very_heavy || gas)) solver.tolerance = fine;
-        if (needs_rigid_contacts(bed) || bed.mass_ratio >= very_heavy) explanation = explain(solver, bed);
+        if (table.tolerance.name == "auto" && gas) solver.tolerance = fine;
+        if (needs_rigid_contacts(bed) || bed.mass_ratio > heavy) explanation = explain(solver, bed);
         if (gas)
             explanation =
                 text("tolerance %g, for impacts without gravity, whose energy nothing stills", solver.tolerance);

@@ -32,8 +32,9 @@ SolverSettings build_solver(const scene::SolverTable& table, const RunSetting& s
 /// These settings with what the scene leaves to the spheres.
 ///
 /// Where spheres stand 150 mean diameters high, or one has 50 000 times the mass of another, contacts are rigid if
-/// nothing flows or moves as prescribed. Where one has 500 times the mass of another, or there is restitution and no
-/// gravity, the tolerance is 1e-3. Not so where the scene says what it wants, or asks for an accuracy.
+/// nothing flows or moves as prescribed. Where there is restitution and no gravity, the tolerance is 1e-3. Not so where
+/// the scene says what it wants, or asks for an accuracy. Where one has more than five times the mass of another, the
+/// tolerance is as much smaller, down to 1e-3, unless the scene gives one.
 ///
 /// Pressure is scaled with `projected` in a bed of forty grains or more, or where something rests on grains of a tenth
 /// of its mass or less; where no axis is periodic. Beds of a hundred grains or more then take at least six sweeps a

@@ -162,10 +162,12 @@ TEST_CASE("the step goes with the sixth root of a mass ratio, and with the sweep
     CHECK(step_under(0.3) == Approx(step_under(0.15) / std::sqrt(2.0)));
 }
 
-TEST_CASE("the tolerance is fine where a sphere is five hundred times as heavy as another", "[solver_choice]")
+TEST_CASE("the tolerance goes with the inverse of a mass ratio beyond five, down to fine", "[solver_choice]")
 {
-    CHECK(solver_of(with_large(0.079)).tolerance == 1e-2); // 493 times
-    auto scene = with_large(0.08);                         // 512 times
+    CHECK(solver_of(with_large(0.017)).tolerance == 1e-2); // 4.9 times
+    CHECK(solver_of(with_large(0.02)).tolerance == Approx(1e-2 * 5.0 / 8.0));
+    CHECK(solver_of(with_large(0.03)).tolerance == Approx(1e-2 * 5.0 / 27.0));
+    auto scene = with_large(0.08); // 512 times
     const auto [simulation, report, output] = build_scene(scene);
     CHECK(simulation.model.solver.tolerance == 1e-3);
     CHECK(report.solver ==
@@ -176,11 +178,12 @@ TEST_CASE("the tolerance is fine where a sphere is five hundred times as heavy a
         scene.solver.tolerance = {0.02, ""};
         CHECK(solver_of(scene).tolerance == 0.02);
     }
-    SECTION("not where it asks for an accuracy")
+    SECTION("so does that of an accuracy")
     {
-        scene.measured = test::measured_settings();
-        scene.accuracy = "2%";
-        CHECK(solver_of(scene).tolerance == 5e-3);
+        auto less = with_large(0.02); // 8 times
+        less.measured = test::measured_settings();
+        less.accuracy = "2%";
+        CHECK(solver_of(less).tolerance == Approx(5e-3 * 5.0 / 8.0));
     }
     SECTION("not without gravity, where nothing rests on anything")
     {
