@@ -14,7 +14,7 @@ namespace talus
 namespace
 {
 
-constexpr double heavy = 5.0; ///< a sphere, times the lightest: beyond that the tolerance falls as this ratio grows
+constexpr double usual_mass_ratio = 5.0; ///< of the heaviest sphere to the lightest: beyond it the tolerance falls
 constexpr double fine = 1e-3;
 
 bool pressure_is_scaled(const scene::SwitchOrName& asked, const BedMeasures& bed, const Model& model)
@@ -50,7 +50,8 @@ template <class... Numbers> std::string text(const char* format, Numbers... numb
 std::string explain(const SolverSettings& solver, const BedMeasures& bed)
 {
     std::string found;
-    if (bed.mass_ratio > heavy) found = text("the heaviest sphere is %.3g times the lightest", bed.mass_ratio);
+    if (bed.mass_ratio > usual_mass_ratio)
+        found = text("the heaviest sphere is %.3g times the lightest", bed.mass_ratio);
     if (needs_rigid_contacts({.depth = bed.depth}))
         found += text("%sthe spheres stand %.3g diameters high", found.empty() ? "" : ", and ", bed.depth);
     return text("stabilisation %s and tolerance %g, for %s",
@@ -71,7 +72,7 @@ double tolerance(const scene::NumberOrName& value, double automatic)
 /// momentum as what it bears is heavier.
 double tolerance_under(double mass_ratio, double usual)
 {
-    return std::clamp(usual * heavy / mass_ratio, std::min(fine, usual), usual);
+    return std::clamp(usual * usual_mass_ratio / mass_ratio, std::min(fine, usual), usual);
 }
 
 } // namespace
@@ -121,7 +122,7 @@ SolverChoice complete_solver(
         }
         const bool gas = model.gravity.isZero() && model.physics.restitution;
         if (table.tolerance.name == "auto" && gas) solver.tolerance = fine;
-        if (needs_rigid_contacts(bed) || bed.mass_ratio > heavy) explanation = explain(solver, bed);
+        if (needs_rigid_contacts(bed) || bed.mass_ratio > usual_mass_ratio) explanation = explain(solver, bed);
         if (gas)
             explanation =
                 text("tolerance %g, for impacts without gravity, whose energy nothing stills", solver.tolerance);

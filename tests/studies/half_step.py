@@ -93,8 +93,8 @@ def page(stored):
     for scene in RESULTS:
         lines += [f"| {scene} | {row} |" for row in stored.get(scene, {}).get("results", ["not run yet | | | | |"])]
     lines += ["", "A change may be as large as two standard errors of a difference, √2 times that of one mean.", "",
-              "| scene | step [ms] | CPU [s] | at half | overlap, mean and worst [% d] | at half | steps split | seeds | "
-              "commit | processor |",
+              "| scene | step [ms] | CPU [s] | at half | overlap, mean and worst [% d] | at half | steps split | "
+              "seeds | commit | processor |",
               "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
     lines += [f"| {scene} | {stored[scene]['cost']} |" for scene in RESULTS if scene in stored]
     return "\n".join(lines) + "\n"
