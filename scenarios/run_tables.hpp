@@ -78,7 +78,7 @@ struct SolverTable {
     std::string stabilisation = "auto";
     NumberOrName tolerance = {0.0, "auto"};
     std::int64_t min_sweeps = 0;
-    std::int64_t max_sweeps = 100;
+    std::int64_t max_sweeps = 300;
     double relaxation = 1.3;
     NumberOrName push_out_speed = {0.0, "auto"};
     SwitchOrName pressure_scaling = {false, "auto"};

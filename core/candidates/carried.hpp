@@ -44,11 +44,8 @@ struct Carried {
     CarriedImpulses walls;          ///< by wall slot of the candidate list
     std::vector<Vec3> wall_normal;  ///< by wall slot: the normal by which the next step knows a wall contact again
     double impulse_step = infinity; ///< for how long the impulses have acted [s]; infinite before the first step
-    /// Σ W|λ|² of what was carried into the step in which something struck what is much lighter, where the impulses are
-    /// of such a step; else infinite.
-    double load_before_impact = infinity;
 
-    void persist(Archive& archive) { archive(walls, wall_normal, impulse_step, load_before_impact); }
+    void persist(Archive& archive) { archive(walls, wall_normal, impulse_step); }
 };
 
 } // namespace talus

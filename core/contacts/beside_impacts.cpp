@@ -83,16 +83,15 @@ private:
         if (contacts_.kind(k) == ContactKind::impact) return false;
         const Contact own = contacts_.contact(k);
         const BodyImpacts &a = impacts_[contacts_.a(k)], &b = with_walls_ ? a : impacts_[contacts_.b(k)];
-        const auto law = beside_impact({.gap = own.gap,
-                                           .u_n = u_n,
-                                           .compression = own.compression,
-                                           .impulse = own.normal_impulse(),
-                                           .was_impact = own.touch.last() == TouchRecord::impact,
-                                           .impact = std::max(a.size, b.size),
-                                           .pressed = std::max(a.load, b.load)},
-            step);
-        if (law) contacts_.set_law(k, *law);
-        return law && law->bears;
+        const Bystander at{.gap = own.gap,
+            .u_n = u_n,
+            .compression = own.compression,
+            .impulse = own.normal_impulse(),
+            .was_impact = own.touch.last() == TouchRecord::impact,
+            .impact = std::max(a.size, b.size),
+            .pressed = std::max(a.load, b.load)};
+        if (const auto law = beside_impact(at, step)) contacts_.set_law(k, *law);
+        return at.is_loaded(step);
     }
 };
 

@@ -152,12 +152,11 @@ ScalingReport scale_pressure(ContactNetwork& network, PistonGroup& pistons, Stat
     return {.corrections = 1, .largest = largest};
 }
 
-ScalingReport correct_pressures(
-    ContactNetwork& network, PistonGroup& pistons, State& state, const Model& model, double warm_size)
+ScalingReport correct_pressures(ContactNetwork& network, PistonGroup& pistons, State& state, const Model& model)
 {
     if (!model.solver.pressure_scaling) return {};
     const int sweeps = std::min(sweeps_before, model.solver.max_sweeps - 1);
-    const double change = sweep_contacts(sweeps, network, pistons, state.bodies, model.physics, warm_size);
+    const double change = sweep_contacts(sweeps, network, pistons, state.bodies, model.physics);
     ScalingReport report;
     if (needs_scaling(change, state, model)) report = scale_pressure(network, pistons, state, model);
     report.sweeps = sweeps;

@@ -38,8 +38,6 @@ ScalingReport scale_pressure(ContactNetwork& network, PistonGroup& pistons, Stat
 /// of mass m in M/m. Two sweeps are made before, which take out of the way what is local: the power λ·y of impacts, and
 /// of contacts about to open, is no lack of pressure. Right after the warm start, the scaling made a flow out of a
 /// hopper overlap nine times as much, in half as many sweeps again.
-/// @param warm_size as for solve_contacts
-ScalingReport correct_pressures(
-    ContactNetwork& network, PistonGroup& pistons, State& state, const Model& model, double warm_size);
+ScalingReport correct_pressures(ContactNetwork& network, PistonGroup& pistons, State& state, const Model& model);
 
 } // namespace talus

@@ -145,8 +145,8 @@ template <class N>
 }
 
 /// It overlaps so much that it yields: it bears as a spring that all of its overlap has pressed, and forgets. The
-/// deeper it is, the less of its spring is left, and it parts with the speed of what is loaded times its strain, no
-/// faster than impacts begin.
+/// deeper it is, the less of its spring is left. It parts with p times its overlap over R*, at most with p, and no
+/// faster than impacts begin: slowly, since a column of such contacts parts with the sum of their speeds.
 template <class N>
 [[gnu::always_inline]] inline NormalLaw<N> yielding_law(
     const ContactEvent<N>& event, const N& before, const N& compliance, const N& per_way, const LawOfStep& step)
@@ -155,7 +155,8 @@ template <class N>
     const Compression<N> now(most / strain, before, step);
     const Answer<N> keeps = (before > 0.0) | begins_spring<N>(event, step);
     const N most_pushing = N{} + smaller(step.push_out_speed, step.elastic_speed);
-    const N push = smaller<N>(smaller<N>(most_pushing, slow_parting<N>(step) * strain), strength);
+    const N by_depth = step.push_out_speed * -event.gap / event.reduced_radius;
+    const N push = smaller<N>(smaller<N>(most_pushing, by_depth), strength);
     const N alone = passive_target<N>(push, event.u_n_before);
     return {larger<N>(alone, strength), compliance / stiffening<N>(event), alone,
         keeps ? borne_compression<N>(now.kappa, event.u_n_before, step) : N{} - __builtin_inf(), now.grown, push};

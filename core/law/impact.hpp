@@ -50,6 +50,10 @@ struct Bystander {
     bool was_impact;    ///< in the step before
     double impact;      ///< impulse of the largest impact of its two spheres, had it that alone [N s]
     double pressed;     ///< largest impulse with which other spheres press on its two, carried over [N s]
+
+    double load(const LawOfStep& step) const { return step.parts * impulse; }
+    /// Whether it bears a load, and the impact with it.
+    bool is_loaded(const LawOfStep& step) const { return load(step) >= load_share * impact; }
 };
 
 /// What such a contact does.
@@ -58,7 +62,6 @@ struct BesideImpact {
     double target;      ///< q_n [m/s]; Σ_n = 0
     double compression; ///< κ that it keeps [m]; −∞: none
     double hands_on;    ///< normal impulse at most [N s]
-    bool bears;         ///< a load, and the impact with it
 };
 
 /// One that had no load is *deferred*: it does not close further than to `deferred_overlap`, and in the next step it is
@@ -67,15 +70,14 @@ struct BesideImpact {
 /// count on in the next step, but what its spheres bore is.
 inline std::optional<BesideImpact> beside_impact(const Bystander& at, const LawOfStep& step)
 {
-    const double load = step.parts * at.impulse;
-    const bool is_loaded = load >= load_share * at.impact;
+    const bool is_loaded = at.is_loaded(step), is_light = at.load(step) < light_share * at.impact;
     const bool parts = at.was_impact && at.u_n > touching_gap * step.min_diameter / step.h; // but for rounding
-    if (parts || (is_loaded && load < light_share * at.impact))
+    if (parts || (is_loaded && is_light))
         return {{ContactKind::bearing, std::min(-std::max(0.0, at.gap) / step.h, -at.u_n),
-            borne_compression<double>(at.compression, at.u_n, step), std::max(at.impulse, at.pressed), is_loaded}};
+            borne_compression<double>(at.compression, at.u_n, step), std::max(at.impulse, at.pressed)}};
     if (!is_loaded && !at.was_impact)
         return {{ContactKind::deferred, std::min(-(at.gap + deferred_overlap * step.min_diameter) / step.h, -at.u_n),
-            -__builtin_inf(), 0.0, false}};
+            -__builtin_inf(), 0.0}};
     return {};
 }
 

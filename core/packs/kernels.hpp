@@ -27,10 +27,11 @@ inline constexpr std::size_t row_variants = 8;
 struct SweepKernel {
     using Sweep = SweepSums (*)(const PackSpan& spheres, const PackSpan& walls, double* bodies, double relaxation);
     using Pass = SweepSums (*)(const PackSpan& spheres, const PackSpan& walls, double* bodies);
+    using Start = void (*)(const PackSpan& spheres, const PackSpan& walls, double* bodies);
 
-    Sweep relax = nullptr;     ///< every contact once
-    Pass measure = nullptr;    ///< what an unrelaxed sweep would change if all contacts were relaxed at once
-    Pass warm_start = nullptr; ///< v ← v + M⁻¹ Gᵀ λ; the sum of sizes is that of these λ
+    Sweep relax = nullptr;      ///< every contact once
+    Pass measure = nullptr;     ///< what an unrelaxed sweep would change if all contacts were relaxed at once
+    Start warm_start = nullptr; ///< v ← v + M⁻¹ Gᵀ λ
 };
 
 /// What contacts leave, each lane by itself, so that sums do not depend on the instruction set.

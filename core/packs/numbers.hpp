@@ -49,6 +49,20 @@ template <int width> [[gnu::always_inline]] inline void store(std::int64_t* to, 
     *reinterpret_cast<typename Register<width>::StoredFlags*>(to) = flags;
 }
 
+/// All lanes, one or another.
+template <int width> [[gnu::always_inline]] inline std::int64_t united(const Flags<width>& flags)
+{
+    if constexpr (width == 1)
+        return flags[0];
+    else if constexpr (width == 2)
+        return flags[0] | flags[1];
+    else if constexpr (width == 4)
+        return united<2>(__builtin_shufflevector(flags, flags, 0, 1) | __builtin_shufflevector(flags, flags, 2, 3));
+    else
+        return united<4>(
+            __builtin_shufflevector(flags, flags, 0, 1, 2, 3) | __builtin_shufflevector(flags, flags, 4, 5, 6, 7));
+}
+
 /// a + b, and what rounding has taken of it (Knuth).
 template <int width>
 [[gnu::always_inline]] inline Numbers<width> sum(
@@ -60,7 +74,8 @@ template <int width>
 }
 
 /// a b + c, rounded once, without an instruction for it (Boldo & Melquiond 2008): the product is exact in two numbers
-/// (Veltkamp, Dekker), and what is added last is rounded to odd.
+/// (Veltkamp, Dekker), and what is added last is rounded to odd. Products so small that their lower half is not exact
+/// are left to the library.
 template <int width>
 [[gnu::always_inline]] inline Numbers<width> fused_by_parts(
     const Numbers<width>& a, const Numbers<width>& b, const Numbers<width>& c)
@@ -81,7 +96,13 @@ template <int width>
     __builtin_memcpy(&odd, &bits, sizeof odd);
     const Numbers<width> rounded = high + odd;
     // What is nothing gets its sign, and what splitting has made infinite its size.
-    return (rounded - rounded == 0.0) & (rounded != 0.0) ? rounded : product + c;
+    Numbers<width> all = (rounded - rounded == 0.0) & (rounded != 0.0) ? rounded : product + c;
+    constexpr double smallest = 0x1p-960;
+    const Flags<width> tiny = (product < smallest) & (product > -smallest) & (a != 0.0) & (b != 0.0);
+    if (united<width>(tiny) != 0)
+        for (int lane = 0; lane < width; ++lane)
+            all[lane] = tiny[lane] ? __builtin_fma(a[lane], b[lane], c[lane]) : all[lane];
+    return all;
 }
 
 /// a b + c, rounded once, in all instruction sets: so results have the same bits.
@@ -103,18 +124,6 @@ template <int width>
 #else
     return fused_by_parts<width>(a, b, c);
 #endif
-}
-
-/// All lanes, one or another.
-template <int width> [[gnu::always_inline]] inline std::int64_t united(const Flags<width>& flags)
-{
-    if constexpr (width == 2)
-        return flags[0] | flags[1];
-    else if constexpr (width == 4)
-        return united<2>(__builtin_shufflevector(flags, flags, 0, 1) | __builtin_shufflevector(flags, flags, 2, 3));
-    else
-        return united<4>(
-            __builtin_shufflevector(flags, flags, 0, 1, 2, 3) | __builtin_shufflevector(flags, flags, 4, 5, 6, 7));
 }
 
 /// 0, step, 2 step, …

@@ -221,15 +221,12 @@ template <int width, bool wall, class R, bool full> struct Contacts {
         if constexpr (apply_change) put_back();
     }
 
-    [[gnu::always_inline]] void warm_start(Sums<width>& sums)
+    [[gnu::always_inline]] void warm_start()
     {
-        const int group = first / width;
         const Vector<width> impulse = Vector<width>::load(pack.impulse, first);
-        sums.size[group] += inverse_mass_sum() * impulse.dot(impulse);
         apply(impulse);
         if constexpr (R::rolling) {
             const Vector<width> turn = Vector<width>::load(rolling->impulse, first);
-            add_rolling(sums.size[group], turn);
             apply_rolling(turn);
         }
         put_back();
@@ -312,16 +309,14 @@ template <int width, class R> SweepSums measure(const PackSpan& spheres, const P
     return relax<width, R, false>(spheres, walls, bodies, 1.0);
 }
 
-template <int width, class R> SweepSums warm_start(const PackSpan& spheres, const PackSpan& walls, double* bodies)
+template <int width, class R> void warm_start(const PackSpan& spheres, const PackSpan& walls, double* bodies)
 {
-    Sums<width> sums;
     const auto visit = [&](auto contacts) __attribute__((always_inline))
     {
-        contacts.warm_start(sums);
+        contacts.warm_start();
     };
     for_each_group<width, false, R>(spheres, bodies, visit);
     for_each_group<width, true, R>(walls, bodies, visit);
-    return sums.total();
 }
 
 template <int width, class R> constexpr SweepKernel sweep()

@@ -48,16 +48,16 @@ struct TilePasses {
     {
         return kernel.measure(contacts.spheres[tile].span(), contacts.walls[tile].span(), bodies);
     }
-    SweepSums warm_start(std::size_t tile) const
+    void warm_start(std::size_t tile) const
     {
-        return kernel.warm_start(contacts.spheres[tile].span(), contacts.walls[tile].span(), bodies);
+        kernel.warm_start(contacts.spheres[tile].span(), contacts.walls[tile].span(), bodies);
     }
 };
 
 /// ε of the corrections in these sums, METHOD (9).
-double residual(const SweepSums& sums, double warm_size)
+double residual(const SweepSums& sums)
 {
-    return sums.change == 0.0 ? 0.0 : std::sqrt(sums.change / std::max(sums.size, warm_size));
+    return sums.change == 0.0 ? 0.0 : std::sqrt(sums.change / sums.size);
 }
 
 /// What of a tolerance sweeps that change so much may leave as ε: where every sweep changes ρ of what the last one did,
@@ -132,17 +132,16 @@ void SolveReport::then(const SolveReport& next)
     converged = converged && next.converged;
 }
 
-double apply_warm_start(
+void apply_warm_start(
     ContactNetwork& network, PistonGroup& pistons, std::vector<Body>& bodies, const ModelledPhysics& physics)
 {
     network.contacts.free_velocity.resize(bodies.size());
 #pragma omp parallel for schedule(static) if (bodies.size() > few_bodies)
     for (std::size_t i = 0; i < bodies.size(); ++i) network.contacts.free_velocity[i] = bodies[i].velocity;
     const TilePasses passes(network, bodies, physics);
-    PartialSums sums(network.list.tiles.count());
-    const auto work = [&](std::size_t tile) { sums.of_tile[tile] = passes.warm_start(tile); };
-    with_tile_crew(network.list.tiles, [&](TileCrew& crew) { crew.color_by_color(work); });
-    return sums.total(unrelaxed).size + pistons.warm_start(bodies.data());
+    with_tile_crew(network.list.tiles,
+        [&](TileCrew& crew) { crew.color_by_color([&](std::size_t tile) { passes.warm_start(tile); }); });
+    pistons.warm_start(bodies.data());
 }
 
 double tightened(double tolerance, double share)
@@ -162,8 +161,8 @@ double relaxation_of(int sweep, const ModelledPhysics& physics, const SolverSett
     return relaxed ? solver.relaxation : unrelaxed;
 }
 
-double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Body>& bodies,
-    const ModelledPhysics& physics, double warm_size)
+double sweep_contacts(
+    int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Body>& bodies, const ModelledPhysics& physics)
 {
     if (count == 0) return infinity;
     const TilePasses passes(network, bodies, physics);
@@ -171,11 +170,11 @@ double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, 
     with_tile_crew(network.list.tiles, [&](TileCrew& crew) {
         for (int k = 0; k < count; ++k) sweep(crew, passes, pistons, bodies, unrelaxed, sums);
     });
-    return residual(sums.total(unrelaxed), warm_size);
+    return residual(sums.total(unrelaxed));
 }
 
 SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Body>& bodies,
-    const ModelledPhysics& physics, const SolverSettings& solver, double warm_size, int sweeps_made)
+    const ModelledPhysics& physics, const SolverSettings& solver, int sweeps_made)
 {
     const TilePasses passes(network, bodies, physics);
     const auto tiles = network.list.tiles.count();
@@ -196,7 +195,7 @@ SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::v
             ++sweeps;
             // ε after a sweep is about what the next one would ask for: as much less as this one asked for less than
             // the last.
-            const double last_change = std::exchange(change, residual(sums.total(relaxation), warm_size));
+            const double last_change = std::exchange(change, residual(sums.total(relaxation)));
             const double expected = change < last_change ? change * change / last_change : change;
             const double asked = solver.to_the_end ? tolerance * share_of_tolerance(change, last_change) : tolerance;
             const bool ready = sweeps >= solver.min_sweeps && (expected <= asked || change == 0.0);
@@ -204,13 +203,13 @@ SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::v
             crew.all_at_once([&](std::size_t tile) { measured.of_tile[tile] = passes.measure(tile); });
             if (!pistons.empty()) crew.by_one([&] { measured.of_pistons = pistons.measure(bodies.data()); });
             const SweepSums sums_of_error = measured.total(unrelaxed);
-            error = residual(sums_of_error, warm_size);
+            error = residual(sums_of_error);
             converged = error <= asked;
             if (!converged || solver.stabilisation == Stabilisation::projected) continue;
             // Where loads are large beside what they change of the motion, errors that are small beside them are not,
             // and springs go on with them. (Rigid rows that contradict each other only grow with further sweeps.)
             crew.by_one([&] { changed = changed_motion(network.contacts.free_velocity, bodies); });
-            const double size = std::max(sums_of_error.size, warm_size);
+            const double size = sums_of_error.size;
             tolerance = tightened(solver.tolerance, size > 0.0 ? motion_share * std::sqrt(changed / size) : 1.0);
             converged = error <= tolerance;
         }

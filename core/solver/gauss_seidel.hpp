@@ -19,8 +19,8 @@ struct SolveReport {
 };
 
 /// Warm start: v ← v + M⁻¹ Gᵀ λ⁰ with the impulses in the contacts (METHOD (5); the note forgets it).
-/// Returns Σ W|λ⁰|². Notes v⁽¹⁾, with which the spheres come.
-double apply_warm_start(
+/// Notes v⁽¹⁾, with which the spheres come.
+void apply_warm_start(
     ContactNetwork& network, PistonGroup& pistons, std::vector<Body>& bodies, const ModelledPhysics& physics);
 
 /// This share of a tolerance, but no less than a tenth of it, and not below 1e-3.
@@ -33,12 +33,12 @@ double relaxation_of(int sweep, const ModelledPhysics& physics, const SolverSett
 /// So many sweeps of projected Gauss–Seidel, as below, whatever the residual. Returns ε of the changes of
 /// the last; without one, infinity.
 double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, std::vector<Body>& bodies,
-    const ModelledPhysics& physics, double warm_size);
+    const ModelledPhysics& physics);
 
 /// Projected Gauss–Seidel (Algorithm 3.1 of the note) on the contacts of the network: sweeps tile colour by tile
 /// colour, the tiles of one colour in parallel, and the pistons after them, until
 ///
-///   ε = (Σ W|δ|² / max(Σ W|λ|², Σ W|λ⁰|²))^½ ≤ tolerance,  δ the exact correction of one contact alone,  METHOD (9)
+///   ε = (Σ W|δ|² / Σ W|λ|²)^½ ≤ tolerance,  δ the exact correction of one contact alone,  METHOD (9)
 ///
 /// but at least min_sweeps and at most max_sweeps. With `matched` ε shall be so small, too, that errors of velocities
 /// are no more than seven tolerances of what contacts have changed of them, (Σ W|δ|² / Σ m|v − v⁽¹⁾|²)^½; but for that
@@ -46,9 +46,8 @@ double sweep_contacts(int count, ContactNetwork& network, PistonGroup& pistons, 
 /// enough; then a pass that changes nothing measures ε itself, and the sweeps go on if it is not.
 /// To the end they go until ε ≤ tolerance · min(1, 2 (1 − ρ)), ρ what the last sweep has changed of what the one before
 /// it did.
-/// @param warm_size Σ W|λ⁰|² of the warm start, where that is a measure
 /// @param sweeps_made sweeps of this step that were made before, and count
 SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::vector<Body>& bodies,
-    const ModelledPhysics& physics, const SolverSettings& solver, double warm_size, int sweeps_made = 0);
+    const ModelledPhysics& physics, const SolverSettings& solver, int sweeps_made = 0);
 
 } // namespace talus

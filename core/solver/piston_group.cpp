@@ -67,9 +67,6 @@ private:
         talus::add_contact(made_.problem, contacts_, k, basis, rows_,
             {{body_of(c.a), sphere_rows(basis, rows_, state_.body(c.a), model_.physics.spin, 1.0, 1.0)},
                 {piston, piston_rows(basis, rows_, arms_[k])}});
-        made_.warm_size += c.inverse_mass_sum * c.impulse.squaredNorm();
-        if (model_.physics.rolling)
-            made_.warm_size += contacts_.rolling_impulse(k).squaredNorm() / contacts_.rolling(k).inertia;
     }
 
     void set_warm_impulse()
@@ -102,12 +99,11 @@ PistonGroup::PistonGroup(const ContactNetwork& network, const State& state, cons
     guides_.assign(sequence_.end() - static_cast<std::ptrdiff_t>(model.pistons.size()), sequence_.end());
 }
 
-double PistonGroup::warm_start(Body* bodies)
+void PistonGroup::warm_start(Body* bodies)
 {
     fetch(bodies);
     for (const std::size_t k : sequence_) iterate_.add(k, own_.problem.rows_of(k, own_.warm_impulse));
     put_back(bodies);
-    return own_.warm_size;
 }
 
 SweepSums PistonGroup::sweep(Body* bodies)

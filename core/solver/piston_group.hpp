@@ -18,7 +18,6 @@ struct PistonProblem {
     std::vector<std::int32_t> spheres;  ///< that have a contact with a piston
     std::vector<Eigen::Matrix3d> bases; ///< by contact: normal and two tangents as columns
     Eigen::VectorXd warm_impulse;       ///< λ⁰ [N s, N m s]
-    double warm_size = 0.0;             ///< Σ W|λ⁰|² of the contacts, rolling rows by their inertia
 };
 
 /// The constraints of a step that move pistons: their guides, and the contacts of spheres with them.
@@ -43,8 +42,8 @@ public:
 
     bool empty() const { return sequence_.empty(); }
 
-    /// v ← v + M⁻¹ Gᵀ λ⁰ for the spheres and the pistons. Returns Σ W|λ⁰|² of the contacts.
-    double warm_start(Body* bodies);
+    /// v ← v + M⁻¹ Gᵀ λ⁰ for the spheres and the pistons.
+    void warm_start(Body* bodies);
 
     /// One sweep; returns the sums of what it did.
     SweepSums sweep(Body* bodies);

@@ -29,17 +29,15 @@ void renumber_along_curve(State& state, ContactNetwork& network, const Model& mo
     renumber_candidates(network.list, network.carried, state, model, order);
 }
 
-/// The carried impulses of contacts and guides for a step of this length: impulses go with it. Returns by how much they
-/// were scaled.
-double scale_impulses(State& state, ContactNetwork& network, double h)
+/// The carried impulses of contacts and guides for a step of this length: impulses go with it.
+void scale_impulses(State& state, ContactNetwork& network, double h)
 {
     const double before = std::exchange(network.carried.impulse_step, h);
     const double scale = before < infinity ? h / before : 1.0;
-    if (scale == 1.0) return scale;
+    if (scale == 1.0) return;
     for (Tile& tile : network.list.tiles.tiles) tile.carried.scale(scale);
     network.carried.walls.scale(scale);
     for (PistonState& piston : state.pistons) piston.guide_impulse *= scale;
-    return scale;
 }
 
 } // namespace
@@ -57,7 +55,7 @@ PreparedStep prepare_step(
 
     // Which spheres and walls can touch during this step?
     if (observer) observer(Phase::search);
-    prepared.impulse_scale = scale_impulses(state, network, step.h());
+    scale_impulses(state, network, step.h());
     renumber_along_curve(state, network, model);
     prepared.walls = place_walls(model, state, step.h());
     prepared.search.searched = update_candidates(network.list, network.carried, state, model, step.h(), prepared.walls);

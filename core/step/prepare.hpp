@@ -34,8 +34,7 @@ struct PreparedStep {
     SearchReport search;
     ContactSurvey contacts;
     std::vector<Flight> flights;
-    double impact_ratio = 0.0;  ///< of stand_beside_impacts
-    double impulse_scale = 1.0; ///< of the carried impulses, where the step before had another length
+    double impact_ratio = 0.0; ///< of stand_beside_impacts
 };
 
 /// The beginning of a step, from which `network` has the problem that the rest of it solves. Positions and velocities

@@ -68,12 +68,7 @@ public:
         enter(Phase::warm_start);
         pistons_.emplace(network_, state_, model_, h_);
         add_forces(state_, model_.gravity, h_);
-        warm_size_ = apply_warm_start(network_, *pistons_, state_.bodies, model_.physics);
-        // The impulse of an impact does not grow with the step: it must not loosen the measure of the others.
-        if (prepared_.impulse_scale > 1.0) warm_size_ /= prepared_.impulse_scale * prepared_.impulse_scale;
-        // Nor may one of something heavy that a column has borne, which hands it on: what counts is the load before.
-        const double shorter = std::min(1.0, prepared_.impulse_scale);
-        warm_size_ = std::min(warm_size_, shorter * shorter * network_.carried.load_before_impact);
+        apply_warm_start(network_, *pistons_, state_.bodies, model_.physics);
     }
 
     /// The contact impulses: every contact in turn until all laws hold. Before that the pressures of a deep bed are
@@ -82,9 +77,9 @@ public:
     {
         enter(Phase::sweeps);
         solver_ = solver_for(prepared_, model_.solver);
-        report_.scaling = correct_pressures(network_, *pistons_, state_, model_, warm_size_);
-        report_.solve = solve_contacts(
-            network_, *pistons_, state_.bodies, model_.physics, solver_, warm_size_, report_.scaling.sweeps);
+        report_.scaling = correct_pressures(network_, *pistons_, state_, model_);
+        report_.solve =
+            solve_contacts(network_, *pistons_, state_.bodies, model_.physics, solver_, report_.scaling.sweeps);
         pistons_->store(network_, state_);
     }
 
@@ -119,7 +114,6 @@ public:
     StepReport hand_on()
     {
         enter(Phase::report);
-        network_.carried.load_before_impact = solver_.to_the_end ? warm_size_ : infinity;
         mark_leaving(state_, model_.outlets);
         report_.outcome = carry_impulses(network_, state_, model_, length_);
         report_.bodies = survey_state(state_, model_, h_);
@@ -141,7 +135,6 @@ private:
 
     PreparedStep prepared_;              ///< by prepare
     std::optional<PistonGroup> pistons_; ///< by free_motion, with their velocities from solve on
-    double warm_size_ = 0.0;             ///< by free_motion: Σ W|λ⁰|², where it is a measure
     SolverSettings solver_;              ///< by solve
     double load_work_ = 0.0;             ///< by move: of pistons' loads [J]
     std::vector<Incident> incidents_;    ///< by move: walls that appeared inside spheres

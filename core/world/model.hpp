@@ -19,7 +19,7 @@ enum class Stabilisation { matched, projected };
 struct SolverSettings {
     Stabilisation stabilisation = Stabilisation::matched;
     int min_sweeps = 2;                 ///< N_min; it also sets the stiffness of `matched`
-    int max_sweeps = 100;               ///< a step that stops here unconverged is counted and reported
+    int max_sweeps = 300;               ///< a step that stops here unconverged is counted and reported
     double tolerance = 1e-2;            ///< on the residual ε, see gauss_seidel.hpp
     double relaxation = 1.3;            ///< ω of the sweeps that are relaxed, METHOD (6); 1: none
     double restitution_threshold = 3.0; ///< impacts slower than this times gravity × step do not rebound

@@ -26,7 +26,6 @@ struct Problem {
     ContactNetwork network;   ///< as it is before the sweeps
     std::vector<Body> bodies; ///< likewise
     std::size_t contacts = 0;
-    double warm_size = 0.0;
 };
 
 Problem make_problem(const std::string& bed, const Change& change)
@@ -38,7 +37,7 @@ Problem make_problem(const std::string& bed, const Change& change)
     problem.contacts = prepare_step(problem.simulation).contacts.count;
     PistonGroup pistons(network, state, model, model.time_step);
     for (Body& body : state.bodies) body.velocity += model.time_step * model.gravity;
-    problem.warm_size = apply_warm_start(network, pistons, state.bodies, model.physics);
+    apply_warm_start(network, pistons, state.bodies, model.physics);
     problem.network = network;
     problem.bodies = state.bodies;
     return problem;
@@ -74,7 +73,7 @@ void sweeps(benchmark::State& run, const std::string& bed, const Change& change)
             state.bodies = problem.bodies;
             omp_set_num_threads(threads);
             const double cpu = cpu_seconds(), wall = wall_seconds();
-            sweep_contacts(sweeps_in_a_row, network, pistons, state.bodies, model.physics, problem.warm_size);
+            sweep_contacts(sweeps_in_a_row, network, pistons, state.bodies, model.physics);
             const double seconds = threads == 1 ? cpu_seconds() - cpu : wall_seconds() - wall;
             rates[static_cast<std::size_t>(threads - 1)].push_back(1e-6 * updates / seconds);
             if (threads == 1) run.SetIterationTime(seconds);

@@ -401,7 +401,7 @@ TEST_CASE("without restitution next to nothing comes back from a floor, or from 
     for_all_worlds(1.0, dead_drop_on_one);
 }
 
-TEST_CASE("without restitution little comes back from a column", "[restitution][column][!mayfail]")
+TEST_CASE("without restitution little comes back from a column", "[restitution][column]")
 {
     for_all_worlds(1.0 / 4, dead_drop_on_column);
 }

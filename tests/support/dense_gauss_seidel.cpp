@@ -274,15 +274,14 @@ void sweep(DenseProblem& p, double relaxation)
         apply(p, row, p.impulse.segment(row, size) + unconstrained_change(p, row, size));
 }
 
-double residual(const DenseProblem& p, const Eigen::VectorXd& warm_impulse)
+double residual(const DenseProblem& p)
 {
     Eigen::VectorXd change(p.impulse.size());
     for (std::size_t k = 0; k < p.friction.size(); ++k)
         change.segment(first_row(k), DenseProblem::rows) << solved_contact(p, k), solved_rolling(p, k);
     const Eigen::VectorXd solved = change;
     change -= p.impulse;
-    return std::sqrt(
-        weighted_square(p, change) / std::max(weighted_square(p, solved), weighted_square(p, warm_impulse)));
+    return std::sqrt(weighted_square(p, change) / weighted_square(p, solved));
 }
 
 } // namespace talus::test

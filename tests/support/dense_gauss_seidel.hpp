@@ -76,8 +76,8 @@ void warm_start(DenseProblem& problem);
 /// @param relaxation the note's: a factor on d, of contacts whose block is diagonal
 void sweep(DenseProblem& problem, double relaxation = 1.0);
 
-/// ε = (Σ W|δ|² / max(Σ W|λ|², Σ W|λ⁰|²))^½ with δ = what a sweep would change in each contact if it changed no other;
+/// ε = (Σ W|δ|² / Σ W|λ|²)^½ with δ = what a sweep would change in each contact if it changed no other;
 /// W is the inverse mass sum, for rolling rows the inverse inertia sum.
-double residual(const DenseProblem& problem, const Eigen::VectorXd& warm_impulse);
+double residual(const DenseProblem& problem);
 
 } // namespace talus::test

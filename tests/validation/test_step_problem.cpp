@@ -30,8 +30,8 @@ State swept_by_kernel(const Simulation& simulation, int sweeps)
     SolverSettings solver = model.solver;
     solver.tolerance = 0.0;
     solver.max_sweeps = sweeps;
-    const double warm_size = apply_warm_start(network, pistons, state.bodies, model.physics);
-    solve_contacts(network, pistons, state.bodies, model.physics, solver, warm_size);
+    apply_warm_start(network, pistons, state.bodies, model.physics);
+    solve_contacts(network, pistons, state.bodies, model.physics, solver);
     pistons.store(network, state);
     return state;
 }
