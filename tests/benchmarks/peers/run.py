@@ -13,7 +13,6 @@ Exit codes: 0 done; 2 the call is wrong; 5 a code failed.
 import argparse
 import itertools
 import json
-import math
 import os
 import shutil
 import statistics
@@ -31,7 +30,6 @@ sys.path.insert(0, str(HERE.parents[2] / "postprocess"))
 from read_run import Run, read_frame  # noqa: E402  after its folder was named
 
 MEAN = 0.5 * (SMALLEST + LARGEST)
-TALUS_STEP = 0.0072 * math.sqrt(SMALLEST / 9.81)  # s; the automatic one, nearly: of the smallest that there may be
 
 
 class PeerError(Exception):
@@ -65,21 +63,21 @@ class Setting(NamedTuple):
     code: str
     name: str
     modulus: float = 0.0  # Pa, of smooth contacts
-    step: float = 0.0  # s
+    step: float = 0.0  # s; of Talus in automatic steps, 0 for that itself
     changes: tuple = ()  # to the scene of Talus
     only: str = ""  # set-ups whose name begins so
 
 
+# The automatic step of Talus comes first: others are multiples of what that run took.
 SETTINGS = [
-    Setting("Talus", "default"),
+    Setting("Talus", "auto"),
     Setting("LAMMPS", "5e6 Pa", 5e6, 1.2e-4),
     Setting("LIGGGHTS", "5e6 Pa", 5e6, 1.2e-4),
-    Setting("Talus", "2 × step", changes=(f"time.step={2 * TALUS_STEP:.6g}",), only="silo"),
-    Setting("Talus", "4 × step", changes=(f"time.step={4 * TALUS_STEP:.6g}",), only="silo"),
+    *(Setting("Talus", f"{factor:g} × auto", step=factor, only="silo") for factor in (0.5, 1.5, 2, 3)),
     Setting("LAMMPS", "5e7 Pa", 5e7, 3.8e-5, only="silo"),
     Setting("LIGGGHTS", "5e7 Pa", 5e7, 3.8e-5, only="silo"),
-    Setting("Talus", "converged", changes=(f"time.step={0.5 * TALUS_STEP:.6g}", 'solver.tolerance="fine"'),
-            only="silo"),
+    Setting("LAMMPS", "7e8 Pa", 7e8, 1.0e-5, only="silo_2000"),
+    Setting("Talus", "converged", step=0.5, changes=('solver.tolerance="fine"',)),
 ]
 PROGRAMS = {"LAMMPS": ("lmp", "lammps"), "LIGGGHTS": ("liggghts",)}
 
@@ -118,7 +116,7 @@ def cpu_at(folder, moment):
 
 
 def run_smooth(program, setting, setup, folder):
-    """CPU seconds of settling and of what comes then, and the frames."""
+    """CPU seconds of settling and of what comes then, the frames, and the step [s]."""
     kind = setup.name.partition("_")[0]
     step = setting.step
     every = round(setup.frames / step)
@@ -134,15 +132,16 @@ def run_smooth(program, setting, setup, folder):
         table = numpy.loadtxt(path, skiprows=9, ndmin=2)
         frames.append(Frame(int(path.name.split(".")[1]) * step, table[:, 1:4], table[:, 4]))
     opened = cpu_at(folder, "opened") if setup.opened else cpu_at(folder, "start")
-    return opened - cpu_at(folder, "start"), cpu_at(folder, "end") - opened, frames
+    return opened - cpu_at(folder, "start"), cpu_at(folder, "end") - opened, frames, step
 
 
-def run_talus(program, setting, setup, folder):
-    """The same of Talus: its clock, which begins when the scene is built."""
+def run_talus(program, setting, setup, folder, automatic):
+    """The same of Talus: its clock, which begins when the scene is built. @param automatic its step [s]"""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     kind = setup.name.partition("_")[0]
     shutil.copy(HERE / f"{kind}.toml", folder / "scene.toml")
-    changes = [argument for change in (*setting.changes, f"time.duration={setup.end}",
+    step = (f"time.step={setting.step * automatic:.6g}",) if setting.step else ()
+    changes = [argument for change in (*step, *setting.changes, f"time.duration={setup.end}",
                                        f"time.frame_interval={setup.frames}", "time.metrics_interval=0.02")
                for argument in ("--set", change)]
     common = ["--threads", "1", "--quiet"]
@@ -158,7 +157,8 @@ def run_talus(program, setting, setup, folder):
         data = read_frame(frame)
         frames.append(Frame(frame.time, vtk_to_numpy(data.GetPoints().GetData()).astype(float),
                             vtk_to_numpy(data.GetPointData().GetArray("radius")).astype(float)))
-    return (first, whole - first, frames) if setup.opened else (0.0, first, frames)
+    taken = run.summary()["time"]["step"]
+    return (first, whole - first, frames, taken) if setup.opened else (0.0, first, frames, taken)
 
 
 def mean_and_worst(frames):
@@ -178,18 +178,20 @@ def flow_of(window):
     return slope(window), statistics.stdev(parts) / len(parts) ** 0.5
 
 
-def measure(program, setting, setup, seed, folder):
-    """One run; the same seed gives all codes the same spheres."""
+def measure(program, setting, setup, seed, folder, automatic):
+    """One run; the same seed gives all codes the same spheres. @param automatic step of Talus [s]"""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     centers, radii = jittered_lattice(setup.count, setup.radius, setup.base, seed)
     write_csv(folder / "spheres.csv", centers, radii)
     write_data(folder / "spheres.data", centers, radii, setup.half_width, setup.top)
     write_stl(folder / "walls.stl", profiles(setup))
-    run = run_talus if setting.code == "Talus" else run_smooth
-    settling, flowing, frames = run(program, setting, setup, folder)
+    if setting.code == "Talus":
+        settling, flowing, frames, step = run_talus(program, setting, setup, folder, automatic)
+    else:
+        settling, flowing, frames, step = run_smooth(program, setting, setup, folder)
     frames.sort(key=lambda frame: frame.time)
-    figures = {"flowing_cpu": flowing / (setup.end - setup.opened)}
+    figures = {"flowing_cpu": flowing / (setup.end - setup.opened), "step": step}
     if setup.opened:
         figures["settling_cpu"] = settling / setup.opened
         early, late = (setup.opened + time for time in setup.flow)
@@ -221,9 +223,12 @@ def run_all(setups, talus, folder, keep):
     for setup in setups:
         settings = [one for one in SETTINGS if one.code not in skipped and setup.name.startswith(one.only)]
         found = {setting: [] for setting in settings}
+        automatic = None
         for repetition in range(setup.repetitions):
             for setting in settings:
-                figures = measure(program_of(setting.code, talus), setting, setup, repetition + 1, folder / setup.name)
+                figures = measure(program_of(setting.code, talus), setting, setup, repetition + 1, folder / setup.name,
+                                  automatic)
+                automatic = automatic or figures["step"]
                 found[setting].append(figures)
                 told = ", ".join(f"{name} {value:.4g}" for name, value in figures.items())
                 print(f"{setup.name}, {setting.code}, {setting.name}: {told}", flush=True)
