@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/command_line.hpp"
 
+#include "io/text/quantity.hpp"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace talus
 {
@@ -18,6 +23,21 @@ const CLI::Validator from_zero_up(
         return good ? std::string() : fmt::format("'{}' is not a finite number from 0 up", text);
     },
     "");
+
+const CLI::Validator seed_numbers(
+    [](std::string& text) {
+        std::int64_t value = -1;
+        const char* const end = text.data() + text.size();
+        const auto read = std::from_chars(text.data(), end, value);
+        const bool good = read.ec == std::errc() && read.ptr == end && value >= 0;
+        return good ? std::string()
+                    : fmt::format(
+                          "'{}' is not a whole number from 0 to {}", text, std::numeric_limits<std::int64_t>::max());
+    },
+    "");
+
+const CLI::Validator not_empty(
+    [](std::string& text) { return text.empty() ? std::string("a name is wanted, not nothing") : std::string(); }, "");
 
 void add_set_option(CLI::App& verb, CommandLine& line)
 {
@@ -40,7 +60,7 @@ void add_scene_and_seed(CLI::App& verb, CommandLine& line)
     verb.add_option("SCENE", line.scene, "A scene file, or the name of a scene that 'talus list' shows")
         ->required()
         ->type_name("");
-    verb.add_option("--seed", line.seed, "Seed of all random numbers")->type_name("N")->check(from_zero_up);
+    verb.add_option("--seed", line.seed, "Seed of all random numbers")->type_name("N")->check(seed_numbers);
 }
 
 void add_scene_options(CLI::App& verb, CommandLine& line)
@@ -111,7 +131,7 @@ void add_run(CLI::App& app, CommandLine& line)
 {
     CLI::App* verb = app.add_subcommand("run", "Run a scene and write frames, metrics and a summary");
     add_scene_options(*verb, line);
-    verb->add_option("-o,--out", line.out, "Output folder [out/NAME]")->type_name("DIR")->take_last();
+    verb->add_option("-o,--out", line.out, "Output folder [out/NAME]")->type_name("DIR")->take_last()->check(not_empty);
     verb->add_flag("--force", line.force, "Replace the output folder if it holds an earlier run of Talus");
     verb->add_flag("--relax", line.relax, "Move overlapping spheres apart before the run begins");
     add_run_options(*verb, line);
@@ -156,7 +176,8 @@ void add_keys(CLI::App& app, CommandLine& line)
 {
     CLI::App* verb = app.add_subcommand("keys", "List the keys of a scene file: range, default, unit, meaning");
     verb->add_option("TABLE", line.table, "One table only")->type_name("");
-    verb->footer("Example: talus keys wall");
+    verb->footer(
+        "Example: talus keys wall\nA number may be a text with its unit, \"5 mm\". Units: " + known_units() + ".");
     verb->callback([&] { line.verb = CommandLine::Verb::keys; });
 }
 
@@ -176,7 +197,10 @@ void add_dump(CLI::App& app, CommandLine& line)
         ->type_name("T")
         ->required()
         ->check(from_zero_up);
-    verb->add_option("-o,--out", line.out, "The file, in FCLIB's format (HDF5)")->type_name("FILE")->required();
+    verb->add_option("-o,--out", line.out, "The file, in FCLIB's format (HDF5)")
+        ->type_name("FILE")
+        ->required()
+        ->check(not_empty);
     add_force_flag(*verb, line);
     add_threads_option(*verb, line);
     add_quiet_flag(*verb, line);
@@ -217,7 +241,7 @@ void add_method_options(CLI::App& verb, SolveRequest& solve)
         {{"natural", Order::natural}, {"reversed", Order::reversed}, {"symmetric", Order::symmetric},
             {"shuffled", Order::shuffled}},
         "In which order a sweep goes through the contacts [natural]");
-    verb.add_option("--seed", solve.settings.seed, "Seed of shuffled orders [1]")->type_name("N")->check(from_zero_up);
+    verb.add_option("--seed", solve.settings.seed, "Seed of shuffled orders [1]")->type_name("N")->check(seed_numbers);
     verb.add_option("--omega", solve.settings.omega,
             "Relaxation, above 0 and below 2; as a list, of each sweep, the last of all that follow [1]")
         ->type_name("W[,W...]")
@@ -250,7 +274,9 @@ void add_solve(CLI::App& app, CommandLine& line)
         ->check(CLI::Range(1, 1000000));
     verb->add_option("--history", solve.history, "Write the errors after each sweep to this CSV file")
         ->type_name("FILE");
-    verb->add_option("-o,--out", line.out, "Write problem and solution (r, u, v) to this file")->type_name("FILE");
+    verb->add_option("-o,--out", line.out, "Write problem and solution (r, u, v) to this file")
+        ->type_name("FILE")
+        ->check(not_empty);
     add_force_flag(*verb, line);
     add_quiet_flag(*verb, line);
     verb->footer("Example: talus solve hopper.hdf5 --tolerance 1e-6 --history history.csv -o solved.hdf5\n"
@@ -271,7 +297,10 @@ void add_study(CLI::App& app, CommandLine& line)
     add_set_option(*verb, line);
     verb->add_option("--settings", line.study, "A study file, of what to try and from when on; 'talus keys study'")
         ->type_name("FILE");
-    verb->add_option("-o,--out", line.out, "Output folder [out/study-NAME]")->type_name("DIR")->take_last();
+    verb->add_option("-o,--out", line.out, "Output folder [out/study-NAME]")
+        ->type_name("DIR")
+        ->take_last()
+        ->check(not_empty);
     verb->add_flag("--force", line.force, "Begin anew where the folder holds a study");
     verb->add_option("--threads", line.threads, "Runs at a time, each on one thread [all cores]")
         ->type_name("N")
@@ -296,11 +325,12 @@ void add_export(CLI::App& app, CommandLine& line)
     verb->get_option("--format")->required();
     verb->add_option("-o,--out", line.out, "Output folder [OUT/FORMAT, for a deck out/NAME-FORMAT]")
         ->type_name("DIR")
-        ->take_last();
+        ->take_last()
+        ->check(not_empty);
     verb->add_flag("--force", line.force, "Replace the files of an earlier export in that folder");
     CLI::Option* seed = verb->add_option("--seed", line.seed, "Of a deck: seed of all random numbers")
                             ->type_name("N")
-                            ->check(from_zero_up);
+                            ->check(seed_numbers);
     add_change_options(*verb, line);
     add_quiet_flag(*verb, line);
     verb->footer("Example: talus export out/hopper --format lammps-dump\n"
@@ -320,7 +350,10 @@ void add_report(CLI::App& app, CommandLine& line)
     verb->add_option("DIR", line.out, "The run's output folder; it may be going on, or have been killed")
         ->required()
         ->type_name("");
-    verb->add_option("-o,--output", line.page, "The page [DIR/report.html]")->type_name("FILE")->take_last();
+    verb->add_option("-o,--output", line.page, "The page [DIR/report.html]")
+        ->type_name("FILE")
+        ->take_last()
+        ->check(not_empty);
     verb->add_option("--frames", line.frames, "How many frames to play [60, fewer of many spheres]")
         ->type_name("N")
         ->check(CLI::Range(1, 10000));
@@ -341,7 +374,7 @@ void add_watch(CLI::App& app, CommandLine& line)
 
 void add_pool_options(CLI::App& verb, CommandLine& line, const char* folder)
 {
-    verb.add_option("-o,--out", line.out, folder)->type_name("DIR")->take_last();
+    verb.add_option("-o,--out", line.out, folder)->type_name("DIR")->take_last()->check(not_empty);
     verb.add_option("--jobs", line.jobs, "Run the cases here, so many at a time [none]")
         ->type_name("N")
         ->check(CLI::Range(1, 1024));

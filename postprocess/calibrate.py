@@ -7,9 +7,9 @@
 Exit codes: as sweep.py; 1 where runs are missing.
 """
 import json
-import shlex
 import sys
 
+from calibration.emulator import require_gaussian_processes
 from calibration.findings import find
 from calibration.page import calibration_page
 from calibration.target import read_target
@@ -41,6 +41,7 @@ def tell(found, out):
 def main():
     arguments = parse_arguments("talus calibrate", "Finds the values of keys that give what was measured.")
     target = read_target(arguments.file)
+    require_gaussian_processes()
     make_place(arguments.out, arguments.file)
     folders = {name: make_folder(sweep, arguments.out / name, arguments.talus, arguments.force) for name, sweep in target.sweeps.items()}
     complaints = run_all(arguments.talus, arguments.jobs, list(folders.values()), arguments.quiet) if arguments.jobs > 0 else []
@@ -51,10 +52,9 @@ def main():
     if missing:
         if not arguments.quiet:
             print(f"{sum(case.state == 'unfinished' for some in cases.values() for case in some)} of {sum(map(len, cases.values()))} runs are missing; to run them:")
-            again = f"talus calibrate {shlex.quote(str(arguments.file))}"
             for name in missing:
-                tell_ways(folders[name], again)
-            print(f"and then {again}")
+                tell_ways(folders[name], arguments)
+            print(f"and then {arguments.again}")
         return 4 if complaints else 1
     for folder in folders.values():
         gather(folder)

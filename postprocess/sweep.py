@@ -9,6 +9,7 @@ written; 128 + N: signal N stopped it, after checkpoints.
 """
 import argparse
 import shlex
+import shutil
 import sys
 from pathlib import Path
 
@@ -35,16 +36,19 @@ def parse_arguments(prog, what):
     parser.add_argument("--force", action="store_true", help="begin anew where the folder holds another one")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     arguments = parser.parse_args()
+    arguments.program = "talus" if shutil.which("talus") else shlex.quote(arguments.talus)
+    where = f" --out {shlex.quote(str(arguments.out))}" if arguments.out else ""
+    arguments.again = f"{arguments.program} {prog.split()[-1]} {shlex.quote(str(arguments.file))}{where}"
     arguments.out = arguments.out or Path("out") / arguments.file.stem
     return arguments
 
 
-def tell_ways(folder, again):
+def tell_ways(folder, arguments):
     """How the cases can be run."""
     drivers = shlex.quote(str(folder.path / "drivers"))
-    ways = [("here", f"{again} --jobs 2"), ("with GNU parallel", f"{drivers}/parallel.sh 2"), ("as a Slurm array", f"sbatch {drivers}/slurm.sh"),
+    ways = [("here", f"{arguments.again} --jobs 2"), ("with GNU parallel", f"{drivers}/parallel.sh 2"), ("as a Slurm array", f"sbatch {drivers}/slurm.sh"),
             ("with Snakemake", f"snakemake -s {drivers}/Snakefile -d {drivers} --cores 2"), ("with Dask", f"/usr/bin/python3 {drivers}/dask_cases.py"),
-            ("one of them", f"talus run {shlex.quote(str(folder.path))} --case 1")]
+            ("one of them", f"{arguments.program} run {shlex.quote(str(folder.path))} --case 1")]
     for way, command in ways:
         print(f"  {way:<20} {command}")
 
@@ -71,8 +75,8 @@ def main():
     if arguments.jobs < 1:
         if not arguments.quiet:
             print(f"{len(folder.cases())} cases in {folder.path / 'cases.csv'}; to run them:")
-            tell_ways(folder, f"talus sweep {shlex.quote(str(arguments.file))}")
-            print(f"and then talus gather {shlex.quote(str(folder.path))}")
+            tell_ways(folder, arguments)
+            print(f"and then {arguments.program} gather {shlex.quote(str(folder.path))}")
         return 0
     complaints = run_all(arguments.talus, arguments.jobs, [folder], arguments.quiet)
     for complaint in complaints[:5]:

@@ -108,7 +108,8 @@ struct DiameterTable {
         key("value", self.value, required(only_for({"constant"}, at_least(0.0))), "m", "the diameter");
         key("mean", self.mean, required(only_for({"normal"}, above(0.0))), "m", "before min and max cut it");
         key("median", self.median, required(only_for({"lognormal"}, above(0.0))), "m", "before min and max cut it");
-        key("deviation", self.deviation, required(only_for({"normal", "lognormal"}, above(0.0))), "",
+        key("deviation", self.deviation, required(only_for({"normal", "lognormal"}, above(0.0))),
+            self.distribution == "normal" ? "m" : "",
             "standard deviation; normal: of the diameter [m], lognormal: of its natural logarithm");
         key("min", self.min, required(only_for({"uniform", "normal", "lognormal"}, at_least(0.0))), "m",
             "the smallest");
@@ -142,6 +143,8 @@ struct SphereList {
     std::vector<double> radii;
     std::vector<Vec3> velocities;
     std::vector<Vec3> angular_velocities;
+    std::vector<std::string> materials; ///< their names
+    std::string columns;                ///< which columns or arrays were taken, and which passed over
 };
 
 struct FillTable {
@@ -171,7 +174,8 @@ struct FillTable {
             "lattice: a jittered lattice, filled from below; random: anywhere without overlap (loose fills only); "
             "dense: at random and then pushed apart, up to 0.6 of the region; single: one sphere; file: as a file "
             "lists them");
-        key("material", self.material, any(), "", "of the spheres; left out where there are species");
+        key("material", self.material, any(), "",
+            "of the spheres; left out where there are species, and not used where the file has materials");
         key("diameter", self.diameter, any(), "m",
             "a number, or a table with a distribution; left out where there are species, or where the file has radii");
         key("species", self.species, only_for({"lattice", "random", "dense"}, any()), "",
@@ -234,6 +238,8 @@ struct PourTable {
 /// The names of all materials in a fill or a pour.
 std::vector<std::string> materials_in(const auto& table)
 {
+    if constexpr (requires { table.spheres; })
+        if (!table.spheres.materials.empty()) return table.spheres.materials;
     if (table.species.empty()) return {table.material};
     std::vector<std::string> names;
     for (const SpeciesTable& species : table.species) names.push_back(species.material);

@@ -68,8 +68,8 @@ TimingSummary summarise_timing(const RunStatistics& statistics, const PhaseClock
 /// What the run was built as, without the choices that it did not have to make.
 std::vector<Explanation> explanations(const BuildReport& report)
 {
-    std::vector<Explanation> list = {{"accuracy", report.accuracy}, {"solver", report.solver}, {"step", report.step},
-        {"model", report.model}, {"overlap", report.overlap}};
+    std::vector<Explanation> list = {{"files", report.files}, {"accuracy", report.accuracy}, {"solver", report.solver},
+        {"step", report.step}, {"model", report.model}, {"overlap", report.overlap}};
     std::erase_if(list, [](const Explanation& one) { return one.sentence.empty(); });
     return list;
 }

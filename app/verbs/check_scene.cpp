@@ -163,7 +163,7 @@ void print_overlaps_at_start(const Simulation& simulation, const OverlapCheck& o
 void print_explanations(const OpenedScene& opened, const OverlapCheck& overlaps)
 {
     const BuildReport& report = opened.report;
-    for (const std::string& choice : {report.accuracy, report.solver})
+    for (const std::string& choice : {report.files, report.accuracy, report.solver})
         if (!choice.empty()) say("{}\n", choice);
     say("{}\n{}\n{}\n", report.step, report.model, report.overlap);
     print_overlaps_at_start(opened.simulation, overlaps);

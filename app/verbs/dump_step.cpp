@@ -72,6 +72,11 @@ std::string options_of_run(const Model& model)
 ExitCode dump_step(const CommandLine& line)
 {
     OpenedScene opened = open_scene(line);
+    if (line.at > opened.scene.time.duration)
+        throw UsageError(
+            fmt::format("--at {:g} is after the end of the scene, {:g} s: give an earlier time, or a longer "
+                        "'duration' with --set time.duration=",
+                line.at, opened.scene.time.duration));
     require_writable(line.out, line.force);
     if (line.threads > 0) omp_set_num_threads(line.threads);
     Simulation& simulation = opened.simulation;

@@ -45,6 +45,7 @@ private:
     TimeWindow window_;
     std::array<double, quantities> latest_;
     std::array<BlockMean, quantities> means_;
+    bool held_ = false; ///< anything, in the window
 };
 
 } // namespace talus

@@ -30,6 +30,7 @@ void WallForce::watch(const Snapshot& now)
     assert(wall_ < now.report.wall_loads.size());
     const WallLoad& load = now.report.wall_loads[wall_];
     const double h = now.model.time_step;
+    if (!now.model.walls[wall_].stands_at(now.state.time - 0.5 * h)) return; // what is not there bears nothing
     const Vec3 force = load.impulse / h;
     const Vec3 torque = load.torque / h - point_.cross(force);
     const Load both = {force.x(), force.y(), force.z(), torque.x(), torque.y(), torque.z()};
@@ -40,8 +41,9 @@ void WallForce::watch(const Snapshot& now)
     ++steps_;
 }
 
-void WallForce::sample(const Snapshot&)
+void WallForce::sample(const Snapshot& now)
 {
+    if (!now.model.walls[wall_].stands_at(now.state.time)) latest_.fill(std::numeric_limits<double>::quiet_NaN());
     if (steps_ == 0) return;
     for (std::size_t k = 0; k < quantities; ++k) latest_[k] = sum_[k] / static_cast<double>(steps_);
     sum_.fill(0.0);

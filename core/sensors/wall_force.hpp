@@ -11,7 +11,7 @@ namespace talus
 
 /// Force [N] and torque about a point [N m] of the spheres on a wall: what wall_load.hpp says of a step, divided by the
 /// step. A sample is the mean over every step since the sample before; the results are means over every step in a
-/// window of time, with the standard error of block means (block_mean.hpp).
+/// window of time, with the standard error of block means (block_mean.hpp). Only steps count in which the wall stands.
 class WallForce : public Sensor
 {
 public:

@@ -45,7 +45,10 @@ void read_mesh(const SceneFile& file, const std::string& key, auto& table, const
 /// Reads the spheres of a fill, and brings them to metres and into place.
 void read_fill(const SceneFile& file, const std::string& key, scene::FillTable& fill)
 {
-    fill.spheres = read_named_file(file, key + ".file", fill.file, read_spheres);
+    std::vector<std::string> materials;
+    for (const auto& material : file.scene.materials) materials.push_back(material.name);
+    fill.spheres = read_named_file(
+        file, key + ".file", fill.file, [&](const std::string& path) { return read_spheres(path, materials); });
     for (Vec3& position : fill.spheres.positions) position = fill.scale * position + fill.translate;
     for (double& radius : fill.spheres.radii) radius *= fill.scale;
     for (Vec3& velocity : fill.spheres.velocities) velocity *= fill.scale;

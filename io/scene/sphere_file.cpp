@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/sphere_file.hpp"
 
+#include "io/scene/lammps_file.hpp"
+#include "io/scene/sphere_columns.hpp"
 #include "io/scene/vtk_file.hpp"
 #include "io/text/csv.hpp"
 #include "io/text/input_error.hpp"
 
 #include <vtkDataArray.h>
+#include <vtkGenericDataObjectReader.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
@@ -14,10 +17,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <numeric>
+#include <memory>
 
 namespace talus
 {
@@ -25,54 +26,50 @@ namespace talus
 namespace
 {
 
-/// What a file lists, with the ids by which it is to be ordered, if it has any.
-struct ListedSpheres {
-    scene::SphereList spheres;
-    std::vector<double> ids;
-};
-
-template <class Element> void reorder(std::vector<Element>& list, const std::vector<std::size_t>& order)
+vtkSmartPointer<vtkPointSet> read_points(const std::filesystem::path& path)
 {
-    if (list.empty()) return;
-    std::vector<Element> ordered;
-    for (const std::size_t i : order) ordered.push_back(list[i]);
-    list = std::move(ordered);
+    if (path.extension() == ".vtp") return read_vtk_file<vtkXMLPolyDataReader>(path, "a VTK file");
+    if (path.extension() == ".vtu") return read_vtk_file<vtkXMLUnstructuredGridReader>(path, "a VTK file");
+    const auto data = read_vtk_file<vtkGenericDataObjectReader>(path, "a VTK file");
+    vtkSmartPointer<vtkPointSet> points = vtkPointSet::SafeDownCast(data);
+    if (!points || !points->GetPoints()) throw InputError(fmt::format("{}: it has no points", path.string()));
+    return points;
 }
 
-scene::SphereList in_order_of_ids(ListedSpheres listed)
-{
-    if (listed.ids.empty()) return std::move(listed.spheres);
-    std::vector<std::size_t> order(listed.ids.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return listed.ids[i]; });
-    reorder(listed.spheres.positions, order);
-    reorder(listed.spheres.radii, order);
-    reorder(listed.spheres.velocities, order);
-    reorder(listed.spheres.angular_velocities, order);
-    return std::move(listed.spheres);
-}
-
-/// The arrays of a VTK file, by name.
-class PointArrays
+/// The point data of a VTK file, component by component.
+class PointColumns
 {
 public:
-    PointArrays(std::string file, vtkPointSet& points) : file_(std::move(file)), points_(points) {}
-
-    std::vector<double> numbers(const char* name) const
+    PointColumns(const std::filesystem::path& path, std::vector<std::string>& names)
+        : file_(path.string()), points_(read_points(path))
     {
-        std::vector<double> list;
-        vtkDataArray* array = find(name, 1);
-        for (vtkIdType i = 0; array && i < count(); ++i) list.push_back(finite(array->GetComponent(i, 0), name, i));
-        return list;
+        if (points_->GetNumberOfPoints() == 0) refuse("it has no points");
+        add(*points_->GetPoints()->GetData(), "position", {"x", "y", "z"}, names);
+        vtkPointData& data = *points_->GetPointData();
+        for (int k = 0; k < data.GetNumberOfArrays(); ++k) {
+            vtkDataArray* array = data.GetArray(k);
+            if (!array || !array->GetName()) continue;
+            const std::string name = array->GetName();
+            const int components = array->GetNumberOfComponents();
+            require(*array, name, is_vector_of_spheres(name) ? 3 : is_number_of_spheres(name) ? 1 : components);
+            std::vector<std::string> parts;
+            for (int d = 0; d < components; ++d)
+                parts.push_back(components == 1   ? name
+                                : components == 3 ? fmt::format("{}_{}", name, "xyz"[d])
+                                                  : fmt::format("{}_{}", name, d));
+            add(*array, name, parts, names);
+        }
     }
 
-    std::vector<Vec3> vectors(const char* name) const
-    {
-        vtkDataArray* array = find(name, 3);
-        return array ? vectors_of(*array, name) : std::vector<Vec3>();
-    }
+    std::size_t rows() const { return static_cast<std::size_t>(points_->GetNumberOfPoints()); }
 
-    std::vector<Vec3> positions() const { return vectors_of(*points_.GetPoints()->GetData(), "position"); }
+    double number(std::size_t row, std::size_t column) const
+    {
+        const auto& [array, component, name] = columns_[column];
+        const double value = array->GetComponent(static_cast<vtkIdType>(row), component);
+        if (!std::isfinite(value)) refuse(fmt::format("the {} of point {} is not a finite number", name, row));
+        return value;
+    }
 
     [[noreturn]] void refuse(const std::string& sentence) const
     {
@@ -80,119 +77,71 @@ public:
     }
 
 private:
+    struct Column {
+        vtkDataArray* array;
+        int component;
+        std::string name; ///< of the array
+    };
     std::string file_;
-    vtkPointSet& points_;
+    vtkSmartPointer<vtkPointSet> points_;
+    std::vector<Column> columns_;
 
-    vtkIdType count() const { return points_.GetNumberOfPoints(); }
-
-    /// The array of this name, whatever its capitals; null where there is none.
-    vtkDataArray* find(std::string_view name, int components) const
+    void require(vtkDataArray& array, const std::string& name, int components) const
     {
-        const auto lower = [](unsigned char c) { return std::tolower(c); };
-        vtkPointData& data = *points_.GetPointData();
-        for (int k = 0; k < data.GetNumberOfArrays(); ++k) {
-            vtkDataArray* array = data.GetArray(k);
-            if (!array || !array->GetName() || !std::ranges::equal(std::string_view(array->GetName()), name, {}, lower))
-                continue;
-            if (array->GetNumberOfComponents() != components || array->GetNumberOfTuples() != count())
-                refuse(fmt::format("array '{}' must have {} numbers for each of the {} points, not {} for {}", name,
-                    components, count(), array->GetNumberOfComponents(), array->GetNumberOfTuples()));
-            return array;
-        }
-        return nullptr;
+        if (array.GetNumberOfComponents() != components || array.GetNumberOfTuples() != points_->GetNumberOfPoints())
+            refuse(fmt::format("array '{}' must have {} numbers for each of the {} points, not {} for {}", name,
+                components, points_->GetNumberOfPoints(), array.GetNumberOfComponents(), array.GetNumberOfTuples()));
     }
 
-    std::vector<Vec3> vectors_of(vtkDataArray& array, const char* name) const
+    void add(vtkDataArray& array, const std::string& name, const std::vector<std::string>& parts,
+        std::vector<std::string>& names)
     {
-        std::vector<Vec3> list;
-        for (vtkIdType i = 0; i < count(); ++i) {
-            Vec3 vector;
-            for (int d = 0; d < 3; ++d) vector[d] = finite(array.GetComponent(i, d), name, i);
-            list.push_back(vector);
+        for (std::size_t d = 0; d < parts.size(); ++d) {
+            columns_.push_back({&array, static_cast<int>(d), name});
+            names.push_back(parts[d]);
         }
-        return list;
-    }
-
-    double finite(double number, const char* name, vtkIdType point) const
-    {
-        if (!std::isfinite(number)) refuse(fmt::format("the {} of point {} is not a finite number", name, point));
-        return number;
     }
 };
 
-ListedSpheres read_vtk(const std::filesystem::path& path)
+SphereColumns read_vtk(const std::filesystem::path& path)
 {
-    vtkSmartPointer<vtkPointSet> points;
-    if (path.extension() == ".vtp")
-        points = read_vtk_file<vtkXMLPolyDataReader>(path, "a VTK file");
-    else
-        points = read_vtk_file<vtkXMLUnstructuredGridReader>(path, "a VTK file");
-    const PointArrays arrays(path.string(), *points);
-    if (points->GetNumberOfPoints() == 0) arrays.refuse("it has no points");
-    ListedSpheres listed;
-    listed.spheres.positions = arrays.positions();
-    listed.spheres.radii = arrays.numbers("radius");
-    const auto diameters = arrays.numbers("diameter");
-    if (listed.spheres.radii.empty())
-        for (const double diameter : diameters) listed.spheres.radii.push_back(0.5 * diameter);
-    for (std::size_t i = 0; i < listed.spheres.radii.size(); ++i)
-        if (!(listed.spheres.radii[i] > 0.0)) arrays.refuse(fmt::format("the radius of point {} must be above 0", i));
-    listed.spheres.velocities = arrays.vectors("velocity");
-    listed.spheres.angular_velocities = arrays.vectors("angular_velocity");
-    listed.ids = arrays.numbers("id");
-    return listed;
+    SphereColumns columns;
+    const auto points = std::make_shared<const PointColumns>(path, columns.names);
+    columns.rows = points->rows();
+    columns.number = [points](std::size_t row, std::size_t column) { return points->number(row, column); };
+    columns.text = [points](
+                       std::size_t row, std::size_t column) { return fmt::format("{}", points->number(row, column)); };
+    columns.refuse_row = [points](std::size_t row, const std::string& sentence) {
+        points->refuse(fmt::format("point {}: {}", row, sentence));
+    };
+    columns.refuse = [points](const std::string& sentence) { points->refuse(sentence); };
+    return columns;
 }
 
-/// The vectors of three columns; none where the first of them is missing.
-std::vector<Vec3> vectors_of(const CsvTable& table, const std::array<const char*, 3>& names)
+SphereColumns read_csv(const std::filesystem::path& path)
 {
-    std::array<int, 3> columns{};
-    for (std::size_t d = 0; d < 3; ++d) columns[d] = table.column(names[d]);
-    const auto missing = std::ranges::count(columns, -1);
-    if (missing == 3) return {};
-    if (missing > 0)
-        table.refuse_header(fmt::format("of '{}', '{}' and '{}' all must be there", names[0], names[1], names[2]));
-    std::vector<Vec3> list;
-    for (std::size_t i = 0; i < table.row_count(); ++i)
-        list.emplace_back(table.value(i, columns[0]), table.value(i, columns[1]), table.value(i, columns[2]));
-    return list;
-}
-
-std::vector<double> radii_of(const CsvTable& table)
-{
-    const int radius = table.column("radius"), diameter = table.column("diameter");
-    if (radius >= 0 && diameter >= 0) table.refuse_header("'radius' or 'diameter', not both");
-    std::vector<double> radii;
-    for (std::size_t i = 0; std::max(radius, diameter) >= 0 && i < table.row_count(); ++i) {
-        radii.push_back(radius >= 0 ? table.value(i, radius) : 0.5 * table.value(i, diameter));
-        if (!(radii.back() > 0.0))
-            table.refuse_row(i, fmt::format("the {} must be above 0", radius >= 0 ? "radius" : "diameter"));
-    }
-    return radii;
-}
-
-ListedSpheres read_csv(const std::filesystem::path& path)
-{
-    const CsvTable table(path, {"id", "x", "y", "z", "radius", "diameter", "vx", "vy", "vz", "wx", "wy", "wz"});
-    ListedSpheres listed;
-    listed.spheres.positions = vectors_of(table, {"x", "y", "z"});
-    if (listed.spheres.positions.empty()) table.refuse_header("the columns 'x', 'y' and 'z' are wanted");
-    listed.spheres.radii = radii_of(table);
-    listed.spheres.velocities = vectors_of(table, {"vx", "vy", "vz"});
-    listed.spheres.angular_velocities = vectors_of(table, {"wx", "wy", "wz"});
-    const int id = table.column("id");
-    for (std::size_t i = 0; id >= 0 && i < table.row_count(); ++i) listed.ids.push_back(table.value(i, id));
-    return listed;
+    const auto table = std::make_shared<const CsvTable>(path);
+    return {.names = table->names(),
+        .rows = table->row_count(),
+        .number = [table](std::size_t row, std::size_t column) { return table->value(row, static_cast<int>(column)); },
+        .text = [table](std::size_t row,
+                    std::size_t column) { return std::string(table->text(row, static_cast<int>(column))); },
+        .refuse_row = [table](std::size_t row, const std::string& sentence) { table->refuse_row(row, sentence); },
+        .refuse = [table](const std::string& sentence) { table->refuse_header(sentence); }};
 }
 
 } // namespace
 
-scene::SphereList read_spheres(const std::filesystem::path& path)
+scene::SphereList read_spheres(const std::filesystem::path& path, const std::vector<std::string>& materials)
 {
     const auto extension = path.extension();
-    if (extension == ".csv") return in_order_of_ids(read_csv(path));
-    if (extension == ".vtp" || extension == ".vtu") return in_order_of_ids(read_vtk(path));
-    throw InputError(fmt::format("{}: spheres are read from .vtp, .vtu and .csv files", path.string()));
+    if (extension == ".csv" || extension == ".txt") return spheres_of(read_csv(path), materials);
+    if (extension == ".vtp" || extension == ".vtu" || extension == ".vtk") return spheres_of(read_vtk(path), materials);
+    for (const char* of_lammps : {".dump", ".lammpstrj", ".data", ".lammps"})
+        if (extension == of_lammps) return spheres_of(read_lammps(path), materials);
+    throw InputError(fmt::format("{}: spheres are read from .csv, .txt, .vtp, .vtu and .vtk files, and from LAMMPS's "
+                                 ".dump, .lammpstrj and .data",
+        path.string()));
 }
 
 } // namespace talus

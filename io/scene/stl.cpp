@@ -21,6 +21,26 @@ namespace
 /// The corners of all triangles, three for each.
 using Corners = std::vector<Vec3>;
 
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; ///< that some editors put before UTF-8
+constexpr std::string_view blanks = " \t\r\n";
+
+/// Where the line ends that a text begins with, whichever system's its line ends are.
+std::size_t end_of_line(std::string_view text)
+{
+    return std::min(text.find_first_of("\r\n"), text.size());
+}
+
+/// The text without blanks and lines of comments before its first word.
+std::string_view from_first_word(std::string_view text)
+{
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    for (;;) {
+        text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+        if (!text.starts_with('#') && !text.starts_with(';') && !text.starts_with("//")) return text;
+        text.remove_prefix(end_of_line(text));
+    }
+}
+
 /// Reads the words of an ASCII STL file: solid NAME, facets, endsolid NAME.
 class AsciiParser
 {
@@ -91,16 +111,16 @@ private:
     /// The next word, or nothing at the end of the file.
     std::string_view next_word()
     {
-        const std::size_t begin = std::min(rest_.find_first_not_of(" \t\r\n"), rest_.size());
-        line_ += static_cast<std::size_t>(
-            std::count(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(begin), '\n'));
-        rest_.remove_prefix(begin);
-        const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t\r\n"));
-        rest_.remove_prefix(word.size());
+        const std::string_view from_word = from_first_word(rest_);
+        const std::string_view passed = rest_.substr(0, rest_.size() - from_word.size());
+        for (std::size_t i = 0; i < passed.size(); ++i)
+            line_ += passed[i] == '\n' || (passed[i] == '\r' && !passed.substr(i + 1).starts_with('\n'));
+        const std::string_view word = from_word.substr(0, from_word.find_first_of(blanks));
+        rest_ = from_word.substr(word.size());
         return word;
     }
 
-    void skip_line() { rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size())); }
+    void skip_line() { rest_.remove_prefix(end_of_line(rest_)); }
 
     static bool equals(std::string_view word, std::string_view lower_case)
     {
@@ -126,12 +146,22 @@ std::size_t binary_count(std::string_view bytes)
     return count;
 }
 
+bool is_text(std::string_view bytes)
+{
+    return bytes.substr(0, 1024).find('\0') == std::string_view::npos;
+}
+
 Corners parse_binary(const std::string& file, std::string_view bytes)
 {
     if (bytes.size() < binary_header)
         throw InputError(fmt::format("{}: neither ASCII STL nor long enough for binary STL", file));
     const std::size_t count = binary_count(bytes);
     const std::size_t wanted = binary_header + binary_triangle * count;
+    if (bytes.size() != wanted && is_text(bytes))
+        throw InputError(
+            fmt::format("{}: it is text, but no ASCII STL, which begins with 'solid'; meshes are read from "
+                        "STL files only",
+                file));
     if (bytes.size() != wanted)
         throw InputError(fmt::format("{}: as binary STL with {} triangles it must have {} bytes, but it has {}", file,
             count, wanted, bytes.size()));
@@ -152,10 +182,10 @@ Corners parse_binary(const std::string& file, std::string_view bytes)
 /// A file that begins with "solid" is ASCII, unless zero bytes show a binary file whose free header begins so.
 bool is_ascii(std::string_view bytes)
 {
-    const std::string_view text = bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()), 5);
+    const std::string_view text = from_first_word(bytes).substr(0, 5);
     const bool begins_solid =
         std::ranges::equal(text, std::string_view("solid"), {}, [](unsigned char c) { return std::tolower(c); });
-    return begins_solid && bytes.substr(0, 1024).find('\0') == std::string_view::npos;
+    return begins_solid && is_text(bytes);
 }
 
 TriangleSoup merge_equal_corners(const Corners& corners)

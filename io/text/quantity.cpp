@@ -30,7 +30,7 @@ constexpr std::array<int, 4> mass{1, 0, 0, 0}, length{0, 1, 0, 0}, time{0, 0, 1,
     force{1, 1, -2, 0}, rate{0, 0, -1, 0}, turning{0, 0, -1, 1};
 constexpr long double turn = 2.0L * std::numbers::pi_v<long double>;
 
-constexpr std::pair<std::string_view, Unit> known_units[] = {{"m", {1.0L, length}}, {"km", {1e3L, length}},
+constexpr std::pair<std::string_view, Unit> units[] = {{"m", {1.0L, length}}, {"km", {1e3L, length}},
     {"dm", {1e-1L, length}}, {"cm", {1e-2L, length}}, {"mm", {1e-3L, length}}, {"um", {1e-6L, length}},
     {"µm", {1e-6L, length}}, {"in", {0.0254L, length}}, {"kg", {1.0L, mass}}, {"g", {1e-3L, mass}},
     {"mg", {1e-6L, mass}}, {"t", {1e3L, mass}}, {"s", {1.0L, time}}, {"ms", {1e-3L, time}}, {"us", {1e-6L, time}},
@@ -68,7 +68,7 @@ int take_power(std::string_view& text)
 std::optional<Unit> take_factor(std::string_view& text)
 {
     const std::pair<std::string_view, Unit>* best = nullptr;
-    for (const auto& known : known_units)
+    for (const auto& known : units)
         if (text.starts_with(known.first) && (!best || known.first.size() > best->first.size())) best = &known;
     if (!best) return std::nullopt;
     text.remove_prefix(best->first.size());
@@ -115,6 +115,14 @@ std::optional<double> quantity_in(std::string_view text, std::string_view unit)
     const auto given = read_unit(parts->second), wanted = read_unit(unit);
     if (!given || !wanted || given->powers != wanted->powers) return std::nullopt;
     return static_cast<double>(parts->first * given->factor / wanted->factor);
+}
+
+std::string known_units()
+{
+    std::string text;
+    for (const auto& [name, unit] : units)
+        if (name != "1") text += std::string(text.empty() ? "" : ", ") + std::string(name);
+    return text + ", and their products, quotients and powers, as in \"2.5 g/cm3\" or \"9.81 m/s^2\"";
 }
 
 bool is_quantity(std::string_view text)

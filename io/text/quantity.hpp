@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace talus
@@ -15,5 +16,8 @@ std::optional<double> quantity_in(std::string_view text, std::string_view unit);
 
 /// Whether a text is a number with a unit.
 bool is_quantity(std::string_view text);
+
+/// The units that a text may name, for people: "m, km, …, and their products and powers".
+std::string known_units();
 
 } // namespace talus

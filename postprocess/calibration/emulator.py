@@ -5,6 +5,7 @@ A result is taken as f(x) plus a scatter from run to run: f is a Gaussian proces
 lengths, size and scatter are those of the largest likelihood. Its errors are then checked on each run left out of it,
 and widened where they were told too small.
 """
+import importlib.util
 import warnings
 
 import numpy
@@ -20,6 +21,12 @@ def shares(unknown, values):
     return numpy.column_stack(columns)
 
 
+def require_gaussian_processes():
+    """Raises RunError where a library that fits need is not there."""
+    if any(importlib.util.find_spec(name) is None for name in ("sklearn", "scipy")):
+        raise RunError("Calibration needs scikit-learn and SciPy: apt install python3-sklearn.")
+
+
 class Emulator:
     """What runs find, over the unit cube of their keys.
 
@@ -27,11 +34,9 @@ class Emulator:
     """
 
     def __init__(self, places, values, columns):
-        try:
-            from sklearn.gaussian_process import GaussianProcessRegressor
-            from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
-        except ImportError as error:
-            raise RunError("Calibration needs scikit-learn and SciPy: apt install python3-sklearn.") from error
+        from sklearn.gaussian_process import GaussianProcessRegressor
+        from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
+
         self.columns = columns
         self.places, self.values = places, numpy.asarray(values, dtype=float)
         self.middle, self.size = self.values.mean(), self.values.std() or 1.0

@@ -41,8 +41,8 @@ const scene::MeasuredSetting& coarsest_within(double error, const scene::Scene& 
         if (measured.bound <= error) return measured;
         least = std::min(least, measured.bound);
     }
-    throw SceneError(accuracy_key, "'" + percent(error) + "' is finer than what was measured: " + percent(least) +
-                                       " is the least; 'talus study' finds settings for a scene");
+    throw SceneError(accuracy_key, std::string("'") + percent(error) + "' is finer than what was measured: " +
+                                       percent(least) + " is the least; 'talus study' finds settings for a scene");
 }
 
 std::string described(const RunSetting& setting)

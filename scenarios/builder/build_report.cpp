@@ -104,6 +104,16 @@ std::string forecast_overlap(const Simulation& simulation, const Bed& bed)
         stiffness, of_layer, depth, 100.0 * of_layer * depth);
 }
 
+std::string explain_files(const scene::Scene& scene)
+{
+    std::string found;
+    for (std::size_t k = 0; k < scene.fill.size(); ++k)
+        if (!scene.fill[k].spheres.columns.empty())
+            found +=
+                text("%sfill[%d] ", found.empty() ? "" : "; ", static_cast<int>(k)) + scene.fill[k].spheres.columns;
+    return found;
+}
+
 std::vector<std::string> warnings_of(const scene::Scene& scene, const StepChoice& choice, const Model& model)
 {
     constexpr double far_above = 10.0;

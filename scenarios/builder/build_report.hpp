@@ -17,6 +17,7 @@ struct BuildReport {
     std::string step;                       ///< where the time step comes from
     std::string model;                      ///< what the run models and what it leaves out
     std::string world;                      ///< the bounds that no sphere may leave
+    std::string files;                      ///< what was taken of files of spheres, and what was not; else empty
     std::string overlap;                    ///< how stiff contacts are at most, and the overlap that it implies
     std::vector<std::string> warnings = {}; ///< what the scene asks for and hardly means
 };
@@ -26,6 +27,9 @@ std::string explain_step(const StepChoice& choice, double d);
 
 /// What the run models, and what it leaves out because nothing in the scene needs it.
 std::string explain_model(const Model& model);
+
+/// What was taken of the files of spheres that a scene names.
+std::string explain_files(const scene::Scene& scene);
 
 /// The bounds of the world: "x from -1 to 1, y without end, z from 0 up, in m".
 std::string explain_world(const Box& world);

@@ -16,11 +16,19 @@ namespace talus
 namespace
 {
 
+/// `--set` joins names by dots.
+void require_plain(const std::string& name, const std::string& key)
+{
+    if (name.find('.') != std::string::npos)
+        throw SceneError(key, "the name '" + name + "' has a '.', with which --set could not name it");
+}
+
 /// Reports, columns and `--set` tell the tables of a list apart by their names, where they have one.
-template <class Table> void refuse_shared_names(const std::vector<Table>& tables, const std::string& list)
+template <class Table> void check_names(const std::vector<Table>& tables, const std::string& list)
 {
     std::map<std::string, std::size_t> first;
     for (std::size_t k = 0; k < tables.size(); ++k) {
+        require_plain(tables[k].name, key_path(list, k, "name"));
         const auto [known, is_new] = first.try_emplace(tables[k].name, k);
         if (!is_new && !tables[k].name.empty())
             throw SceneError(key_path(list, k, "name"), "two " + list + "s are called '" + tables[k].name + "'",
@@ -28,12 +36,13 @@ template <class Table> void refuse_shared_names(const std::vector<Table>& tables
     }
 }
 
-void refuse_shared_names(const scene::Scene& scene)
+void check_names(const scene::Scene& scene)
 {
-    refuse_shared_names(scene.wall, "wall");
-    refuse_shared_names(scene.pour, "pour");
-    refuse_shared_names(scene.outlet, "outlet");
-    refuse_shared_names(scene.sensor, "sensor");
+    for (const auto& material : scene.materials) require_plain(material.name, "materials." + material.name);
+    check_names(scene.wall, "wall");
+    check_names(scene.pour, "pour");
+    check_names(scene.outlet, "outlet");
+    check_names(scene.sensor, "sensor");
 }
 
 OutputChoice build_output(const scene::OutputTable& table)
@@ -80,7 +89,7 @@ Model build_model(const scene::Scene& scene, const Materials& materials, const s
 
 BuiltScene build_scene(const scene::Scene& scene)
 {
-    refuse_shared_names(scene);
+    check_names(scene);
 
     // Every table is read once, in the order of the scene.
     Simulation simulation;
@@ -114,7 +123,7 @@ BuiltScene build_scene(const scene::Scene& scene)
     model.solver.push_out_speed = push_out_speed(scene.solver, model);
 
     BuildReport report{accuracy.explanation, choice.explanation, explain_step(step, model.min_diameter),
-        explain_model(model), explain_world(model.world), forecast_overlap(simulation, bed),
+        explain_model(model), explain_world(model.world), explain_files(scene), forecast_overlap(simulation, bed),
         warnings_of(scene, step, model)};
     return {std::move(simulation), std::move(report), std::move(output)};
 }

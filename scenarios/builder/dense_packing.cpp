@@ -126,12 +126,13 @@ private:
 
 } // namespace
 
-std::vector<PackedSphere> dense_packing(const PackingRoom& room, const Mixture& mixture, std::int64_t count,
-    const std::vector<PackedSphere>& others, Random& random)
+std::vector<PackedSphere> dense_packing(
+    const PackingRoom& room, GrainSource& grains, const std::vector<PackedSphere>& others, Random& random)
 {
     std::vector<PackedSphere> spheres;
-    for (std::int64_t i = 0; i < count; ++i) {
-        const Grain grain = mixture.draw(random);
+    while (grains.is_open()) {
+        const Grain grain = grains.draw(random);
+        if (!grains.wants(grain)) break;
         const double radius = 0.5 * grain.diameter;
         std::optional<Vec3> center;
         for (int k = 0; k < centers_tried && !center; ++k) {
@@ -140,13 +141,15 @@ std::vector<PackedSphere> dense_packing(const PackingRoom& room, const Mixture& 
         }
         if (!center) return {};
         spheres.push_back({*center, radius, grain.material});
+        grains.take(grain);
     }
+    const std::size_t count = spheres.size();
     Crowd crowd(room, std::move(spheres), others);
     // The last pushes of a sweep may have closed what it had opened before.
     for (int k = 0; k < most_sweeps; ++k) {
         if (!crowd.sweep()) continue;
         auto clear = crowd.clear_ones();
-        if (static_cast<std::int64_t>(clear.size()) == count) return clear;
+        if (clear.size() == count) return clear;
     }
     return crowd.clear_ones();
 }

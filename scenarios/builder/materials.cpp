@@ -3,6 +3,7 @@
 
 #include "scenarios/builder/checks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -58,8 +59,12 @@ std::map<std::string, double> count_spheres(const scene::Scene& scene)
 {
     std::map<std::string, double> count;
     const auto add = [&](const auto& tables) {
-        for (const auto& table : tables)
-            for (const auto& name : set_of(materials_in(table))) count[name] += most_spheres(table);
+        for (const auto& table : tables) {
+            const std::vector<std::string> names = materials_in(table); // of a file, one for each sphere
+            const bool one_by_one = names.size() > 1 && most_spheres(table) == static_cast<double>(names.size());
+            for (const auto& name : set_of(names))
+                count[name] += one_by_one ? static_cast<double>(std::ranges::count(names, name)) : most_spheres(table);
+        }
     };
     add(scene.fill);
     add(scene.pour);

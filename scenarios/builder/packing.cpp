@@ -58,9 +58,9 @@ private:
 };
 
 /// A grid with these spheres in it, to which those of a mixture may be added.
-SphereGrid grid_of(const std::vector<PackedSphere>& others, const Mixture& mixture)
+SphereGrid grid_of(const std::vector<PackedSphere>& others, const GrainSource& grains)
 {
-    double largest = mixture.max_diameter();
+    double largest = grains.max_diameter();
     for (const auto& sphere : others) largest = std::max(largest, 2.0 * sphere.radius);
     SphereGrid grid(largest);
     for (const auto& sphere : others) grid.add(sphere);
@@ -166,10 +166,10 @@ Vec3 PackingRoom::way_in(const Vec3& center, double radius) const
     return way;
 }
 
-std::vector<PackedSphere> lattice_packing(const PackingRoom& room, const Mixture& mixture, std::int64_t count,
-    double spacing, const std::vector<PackedSphere>& others, Random& random)
+std::vector<PackedSphere> lattice_packing(const PackingRoom& room, GrainSource& grains, double spacing,
+    const std::vector<PackedSphere>& others, Random& random)
 {
-    const double a = spacing * mixture.max_diameter(); // distance of nearest lattice points
+    const double a = spacing * grains.max_diameter(); // distance of nearest lattice points
     const LatticeFrame frame(room.model());
     const Box bounds = room.region().bounds();
     const Vec3 middle = bounds.center();
@@ -180,14 +180,14 @@ std::vector<PackedSphere> lattice_packing(const PackingRoom& room, const Mixture
     };
     const auto layers = places(2.0 * half(frame.up)), rows = places(half(frame.e1)), columns = places(half(frame.e2));
 
-    const auto grid = grid_of(others, mixture);
+    const auto grid = grid_of(others, grains);
     std::vector<PackedSphere> spheres;
-    Grain next = mixture.draw(random);
+    Grain next = grains.draw(random);
     std::int64_t in_vain = 0; // places that were taken, or outside
     for (std::int64_t k = 0; k < layers; ++k) {
         for (std::int64_t i = -rows; i <= rows; ++i)
             for (std::int64_t j = -columns; j <= columns; ++j) {
-                if (static_cast<std::int64_t>(spheres.size()) == count) return spheres;
+                if (!grains.wants(next)) return spheres;
                 const double radius = 0.5 * next.diameter;
                 const Vec3 jitter = (0.5 * a - radius) * random_in_ball(random);
                 const Vec3 point = middle + static_cast<double>(i) * a * frame.e1 +
@@ -195,23 +195,25 @@ std::vector<PackedSphere> lattice_packing(const PackingRoom& room, const Mixture
                                    (0.5 * a - half(frame.up) + static_cast<double>(k) * a) * frame.up;
                 const PackedSphere sphere{point + jitter, radius, next.material};
                 if (!room.holds(sphere.center, radius) || grid.overlaps(sphere)) {
-                    if (++in_vain > most_places + 10 * count) return spheres;
+                    if (++in_vain > most_places + 10 * grains.taken()) return spheres;
                     continue;
                 }
                 spheres.push_back(sphere);
-                next = mixture.draw(random);
+                grains.take(next);
+                next = grains.draw(random);
             }
     }
     return spheres;
 }
 
-std::vector<PackedSphere> random_packing(const PackingRoom& room, const Mixture& mixture, std::int64_t count,
-    const std::vector<PackedSphere>& others, Random& random)
+std::vector<PackedSphere> random_packing(
+    const PackingRoom& room, GrainSource& grains, const std::vector<PackedSphere>& others, Random& random)
 {
-    auto grid = grid_of(others, mixture);
+    auto grid = grid_of(others, grains);
     std::vector<PackedSphere> spheres;
-    while (static_cast<std::int64_t>(spheres.size()) < count) {
-        const Grain grain = mixture.draw(random);
+    while (grains.is_open()) {
+        const Grain grain = grains.draw(random);
+        if (!grains.wants(grain)) break;
         const double radius = 0.5 * grain.diameter;
         bool placed = false;
         for (int k = 0; k < tries && !placed; ++k) {
@@ -220,6 +222,7 @@ std::vector<PackedSphere> random_packing(const PackingRoom& room, const Mixture&
             if (!placed) continue;
             grid.add({*center, radius, grain.material});
             spheres.push_back({*center, radius, grain.material});
+            grains.take(grain);
         }
         if (!placed) break;
     }

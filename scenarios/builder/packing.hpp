@@ -2,11 +2,10 @@
 #pragma once
 
 #include "core/base/region.hpp"
-#include "core/supply/mixture.hpp"
 #include "core/world/model.hpp"
 #include "core/world/placed_wall.hpp"
+#include "scenarios/builder/grain_source.hpp"
 
-#include <cstdint>
 #include <vector>
 
 namespace talus
@@ -53,24 +52,24 @@ private:
     bool on_right_side(const Vec3& x) const;
 };
 
-/// A jittered lattice, filled layer by layer from below (against gravity) until `count` spheres are placed, the region
+/// A jittered lattice, filled layer by layer from below (against gravity) until no more spheres are wanted, the region
 /// is full, or ten million places and ten for each sphere were in vain: a cubic lattice with `spacing` times the
 /// largest diameter between its points, each sphere moved at random within the room that the spacing leaves, so that
 /// nothing overlaps. Cubic, and not the dense lattices, because it collapses when it falls: a close-packed one stays a
 /// crystal. A sphere without room at one place goes to the next, so that sizes and species come as often as they are
 /// drawn.
 /// @param others already there, kept clear of
-std::vector<PackedSphere> lattice_packing(const PackingRoom& room, const Mixture& mixture, std::int64_t count,
-    double spacing, const std::vector<PackedSphere>& others, Random& random);
+std::vector<PackedSphere> lattice_packing(const PackingRoom& room, GrainSource& grains, double spacing,
+    const std::vector<PackedSphere>& others, Random& random);
 
 /// Spheres at random places without overlap; gives up on one after 2000 tries, so it may return fewer than asked for.
-std::vector<PackedSphere> random_packing(const PackingRoom& room, const Mixture& mixture, std::int64_t count,
-    const std::vector<PackedSphere>& others, Random& random);
+std::vector<PackedSphere> random_packing(
+    const PackingRoom& room, GrainSource& grains, const std::vector<PackedSphere>& others, Random& random);
 
 /// Spheres at random places that overlap, and are then pushed apart and into the room, overlap by overlap, until none
 /// is left: a fill of any sizes up to 0.6 of the room. What still overlaps after 4000 sweeps is left out, so it may
 /// return fewer than asked for.
-std::vector<PackedSphere> dense_packing(const PackingRoom& room, const Mixture& mixture, std::int64_t count,
-    const std::vector<PackedSphere>& others, Random& random);
+std::vector<PackedSphere> dense_packing(
+    const PackingRoom& room, GrainSource& grains, const std::vector<PackedSphere>& others, Random& random);
 
 } // namespace talus

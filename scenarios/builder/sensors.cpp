@@ -71,10 +71,10 @@ std::unique_ptr<Sensor> build_region_average(const Entry& entry)
 /// A profile's table is written to a file that is named after it.
 void require_file_name(const Entry& entry)
 {
-    const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '.'; };
-    if (!std::ranges::all_of(entry.table.name, is_plain))
+    const auto is_plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+    if (entry.table.name.empty() || !std::ranges::all_of(entry.table.name, is_plain))
         throw SceneError(entry.key("name"),
-            "the name of a profile is part of a file's name: use letters, digits, '.', '_' and '-' only");
+            "the name of a profile is part of a file's name: use letters, digits, '_' and '-' only, one at least");
     constexpr std::size_t longest = 200; // file systems take 255, with what stands before and behind it
     if (entry.table.name.size() > longest)
         throw SceneError(entry.key("name"), "the name of a profile is part of a file's name: at most 200 characters");

@@ -4,6 +4,7 @@
 #include "scenarios/builder/checks.hpp"
 #include "scenarios/builder/materials.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -112,11 +113,15 @@ std::vector<PackedSphere> listed_spheres(
     if (table.count != 0 && table.count != static_cast<std::int64_t>(positions.size()))
         throw SceneError(key + ".count", "the file has " + std::to_string(positions.size()) + " spheres, not " +
                                              std::to_string(table.count) + "; leave 'count' out to take them all");
-    if (table.material.empty()) throw SceneError(key + ".material", "give the 'material' of the file's spheres");
-    const int material = material_index(materials, table.material, key + ".material");
+    const auto& own = table.spheres.materials;
+    if (table.material.empty() && own.empty())
+        throw SceneError(key + ".material", "the file has no materials: give the 'material' of its spheres");
     const auto radii = listed_radii(table, key);
     std::vector<PackedSphere> spheres;
-    for (std::size_t i = 0; i < positions.size(); ++i) spheres.push_back({positions[i], radii[i], material});
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        spheres.push_back({positions[i], radii[i],
+            own.empty() ? material_index(materials, table.material, key + ".material")
+                        : material_index(materials, own[i], key + ".file")});
     return spheres;
 }
 
@@ -127,15 +132,23 @@ PackedSphere single_sphere(const scene::FillTable& table, const std::string& key
     return {table.position, 0.5 * table.diameter.value, material_index(materials, table.material, key + ".material")};
 }
 
-/// How many spheres a packing has, by number, mass or the share of its region that they fill.
+/// About how many spheres a packing has, by number, mass or the share of its region that they fill.
 std::int64_t count_of(const Fill& fill, const Materials& materials)
 {
     const scene::FillTable& table = fill.table;
     if ((table.count > 0) + (table.mass > 0.0) + (table.filling > 0.0) > 1)
         throw SceneError(fill.key + ".count", "give 'count', 'mass' or 'filling', only one of them");
     double count = static_cast<double>(table.count);
-    if (table.mass > 0.0) count = table.mass / fill.mixture.mean_mass(materials);
-    if (table.filling > 0.0) count = table.filling * fill.region.volume() / fill.mixture.mean_volume();
+    const double one = table.mass > 0.0 ? fill.mixture.mean_mass(materials) : fill.mixture.mean_volume();
+    if (table.mass > 0.0) count = table.mass / one;
+    if (table.filling > 0.0) count = table.filling * fill.region.volume() / one;
+    if (count < 0.5 && table.count == 0 && (table.mass > 0.0 || table.filling > 0.0)) {
+        char text[150];
+        std::snprintf(text, sizeof text,
+            "this is less than one sphere, which has %.3g %s on average: check sizes, density and units", one,
+            table.mass > 0.0 ? "kg" : "m3");
+        throw SceneError(fill.key + (table.mass > 0.0 ? ".mass" : ".filling"), text);
+    }
     constexpr double most = 1e8; // as for a count
     if (!(count <= most)) throw SceneError(fill.key + ".mass", "these are more than 100 million spheres");
     return std::llround(count);
@@ -192,6 +205,19 @@ void require_loose_enough(const Fill& fill)
     throw SceneError(fill.key + ".region", text);
 }
 
+/// How much a packing is to hold.
+GrainSource::Amount amount_of(const Fill& fill)
+{
+    GrainSource::Amount amount;
+    if (fill.table.mass > 0.0)
+        amount.mass = fill.table.mass;
+    else if (fill.table.filling > 0.0)
+        amount.volume = fill.table.filling * fill.region.volume();
+    else
+        amount.count = fill.count;
+    return amount;
+}
+
 /// The spheres of a packing. @param placed those of earlier fills
 std::vector<PackedSphere> packed_spheres(
     const Fill& fill, const Model& model, const std::vector<PackedSphere>& placed, Random& random)
@@ -199,19 +225,21 @@ std::vector<PackedSphere> packed_spheres(
     const std::string& arrangement = fill.table.arrangement;
     if (arrangement == "dense") require_loose_enough(fill);
     const PackingRoom room(fill.region, fill.except, model);
-    const auto spheres = arrangement == "lattice"
-                             ? lattice_packing(room, fill.mixture, fill.count, fill.table.spacing, placed, random)
-                         : arrangement == "random" ? random_packing(room, fill.mixture, fill.count, placed, random)
-                                                   : dense_packing(room, fill.mixture, fill.count, placed, random);
-    if (static_cast<std::int64_t>(spheres.size()) < fill.count)
+    GrainSource grains(fill.mixture, model.materials, amount_of(fill));
+    const auto spheres = arrangement == "lattice"  ? lattice_packing(room, grains, fill.table.spacing, placed, random)
+                         : arrangement == "random" ? random_packing(room, grains, placed, random)
+                                                   : dense_packing(room, grains, placed, random);
+    const auto found = static_cast<std::int64_t>(spheres.size());
+    if (!grains.is_open() && found == grains.taken()) return spheres;
+    const std::string wanted = std::to_string(std::max(fill.count, found + 1));
+    const std::string clear = " spheres of this size clear of walls and earlier fills";
+    if (arrangement == "dense")
         throw SceneError(fill.key + ".region",
-            "the region holds " + std::to_string(spheres.size()) +
-                " spheres of this size clear of walls and earlier fills, not " + std::to_string(fill.count) +
-                (arrangement == "lattice"     ? "; make it larger, lower their number or 'spacing', or use arrangement "
-                                                "\"dense\""
-                    : arrangement == "random" ? "; make it larger, lower their number, or use arrangement \"dense\""
-                                              : "; make it larger, or lower their number"));
-    return spheres;
+            "no room was found in the region for " + wanted + clear + "; make it larger, or lower their number");
+    throw SceneError(fill.key + ".region", "the region holds " + std::to_string(found) + clear + ", not " + wanted +
+                                               "; make it larger, lower their number" +
+                                               (arrangement == "lattice" ? " or 'spacing'" : "") +
+                                               ", or use arrangement \"dense\"");
 }
 
 /// A vector of independent normal numbers with deviation 1 (Box and Muller 1958).

@@ -30,6 +30,8 @@ Periodicity build_periodicity(const scene::WorldTable& table, double max_diamete
     constexpr double shortest = 2.2 * (1.0 - 1e-6);
     Periodicity periodicity;
     for (const auto& name : table.periodic) {
+        if (std::ranges::count(table.periodic, name) > 1)
+            throw SceneError("world.periodic", "the axis " + name + " is there twice");
         const int d = name[0] - 'x';
         const double length = table.max[d] - table.min[d];
         if (!std::isfinite(length))

@@ -116,7 +116,8 @@ TEST_CASE("a dumped file says which spheres and contacts are its bodies and cons
 {
     const Workplace place;
     place.write("scene.toml", beads_in_a_box);
-    REQUIRE(place.talus("dump scene.toml --at 0.1 --set fill.0.count=30 --quiet -o step.hdf5").exit_code == 0);
+    REQUIRE(place.talus("dump scene.toml --at 0.1 --set time.duration=0.1 --set fill.0.count=30 --quiet -o step.hdf5")
+                .exit_code == 0);
     const auto file = read_fclib(place.path("step.hdf5"));
     for (const std::string list : talus::origin_lists) CHECK(file.origin.at(list).size() > 0);
     const auto number = [&](const std::string& list, Eigen::Index k) { return file.origin.at(list)[k]; };

@@ -176,7 +176,7 @@ TEST_CASE("only samples in the window count, and the error is that of their mean
     CHECK(sensor.latest()[3].value == 100.0);
 }
 
-TEST_CASE("an empty region has no packing, no stress and no velocity", "[region][degenerate]")
+TEST_CASE("a region that never holds anything has nothing to measure", "[region][degenerate]")
 {
     State state;
     Model model;
@@ -184,12 +184,14 @@ TEST_CASE("an empty region has no packing, no stress and no velocity", "[region]
     RegionAverage sensor("nowhere", box(Vec3::Zero(), Vec3::Ones()), {});
     CHECK(std::isnan(values(sensor.latest())["packing_fraction"]));
     sample(sensor, state, model);
-    auto empty = values(sensor.results());
+    auto empty = values(sensor.latest());
     CHECK(empty["packing_fraction"] == 0.0);
     CHECK(empty["pressure"] == 0.0);
     CHECK(std::isnan(empty["velocity_x"]));
     CHECK(std::isnan(empty["granular_temperature"]));
     CHECK(std::isnan(empty["coordination"]));
+    for (const Measurement& result : sensor.results()) CHECK(std::isnan(result.value));
+    CHECK(sensor.silence() == "there was nothing to measure");
 }
 
 TEST_CASE("a region sensor that was stored goes on as if nothing had been", "[region][persist]")

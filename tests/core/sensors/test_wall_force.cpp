@@ -108,6 +108,7 @@ TEST_CASE(
     ContactNetwork network;
     Model model;
     model.time_step = 0.5;
+    model.walls.assign(2, {"wall", Plane{Vec3::Zero(), Vec3::UnitZ()}, 0});
     StepReport report;
     WallForce sensor("wall", 1, Vec3::Zero(), {3.5, 5.0});
     for (int k = 1; k <= 12; ++k) {
@@ -123,6 +124,24 @@ TEST_CASE(
     sensor.sample({state, model, network, report});
     CHECK(sensor.latest()[0].value == Approx(8.5));  // no step since
     CHECK(sensor.results()[0].value == Approx(8.5)); // of 7 to 10
+}
+
+TEST_CASE("the mean of a wall force is over the time in which the wall stands", "[wall_force]")
+{
+    World world = with_wall_loads(matched_settings());
+    world.model.walls[0].appear_at = 0.05;
+    world.model.walls[0].remove_at = 0.35;
+    world.model.gravity = Vec3(0, 0, -1e-9); // what is thrown up stays there
+    WallForce sensor("gate", 0, Vec3::Zero(), {0.1, 10.0});
+    world.add_sphere(Vec3(0, 0, standard_radius), Vec3::Zero());
+    world.state.own_force.assign(1, Vec3(0, 0, -1.0));
+    for (int k = 0; k < 2000; ++k) {
+        world.state.own_force[0].z() = world.model.walls[0].stands_at(world.state.time) ? -1.0 : 0.0;
+        step_with(world, sensor, 1);
+    }
+    CHECK(world.state.time > 0.45);
+    CHECK(sensor.results()[2].value == Approx(-1.0).epsilon(1e-3)); // not less for the time without it
+    CHECK(std::isnan(sensor.latest()[2].value));
 }
 
 TEST_CASE("a wall force that was stored goes on as if nothing had been", "[wall_force][persist]")

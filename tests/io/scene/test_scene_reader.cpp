@@ -180,7 +180,7 @@ TEST_CASE("a distribution is asked for what it needs, and takes no more", "[scen
     CHECK(refusal("{ distribution = 'lognormal', deviation = 1, min = 1, max = 1 }") ==
           "scene.toml:4:12: [diameter] needs the key 'median' (before min and max cut it)");
     CHECK(refusal("{ distribution = 'normal', mean = 1, deviation = 0, min = 1, max = 1 }") ==
-          "scene.toml:4:61: 'deviation' must be a number above 0, not 0");
+          "scene.toml:4:61: 'deviation' must be a number above 0 [m], not 0");
     CHECK(refusal("{ distribution = 'lognormal', mean = 1 }") ==
           "scene.toml:4:42: key 'mean' in [diameter] goes with distribution 'normal', not 'lognormal', whose keys are "
           "'distribution', 'median', 'deviation', 'min' and 'max'");

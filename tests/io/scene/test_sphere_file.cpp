@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 
@@ -139,15 +140,104 @@ TEST_CASE("a .csv file gives its spheres", "[sphere_file]")
     CHECK(spheres_of("s.csv", "x,y,z\n0,0,0\n").radii.empty());
 }
 
+TEST_CASE("tables of other programs are read, whatever their separators and names", "[sphere_file]")
+{
+    const std::string rows[] = {"0 0 1 0.5 1 2 3", "2 0 1 0.25 4 5 6"};
+    const auto written = [&](const std::string& names, char between) {
+        std::string text = names + "\n";
+        for (std::string row : rows) {
+            std::ranges::replace(row, ' ', between);
+            text += row + "\n";
+        }
+        return text;
+    };
+    const auto [header, separator] = GENERATE(
+        table<std::string, char>({{"x,y,z,radius,vx,vy,vz", ','}, {"x;y;z;r;velocity_x;velocity_y;velocity_z", ';'},
+            {"x y z radius vx vy vz", ' '}, {"X\tY\tZ\tRadius\tVX\tVY\tVZ", '\t'},
+            {"\"Points:0\",\"Points:1\",\"Points:2\",\"radius\",\"velocity:0\",\"velocity:1\",\"velocity:2\"", ','},
+            {"position_x_m,position_y_m,position_z_m,radius_m,velocity_x_m_per_s,velocity_y_m_per_s,velocity_z_m_per_s",
+                ','},
+            {"x [m];y [m];z [m];radius [m];vx [m/s];vy [m/s];vz [m/s]", ';'}}));
+    CAPTURE(header);
+    const auto spheres = spheres_of("s.csv", written(header, separator));
+    CHECK(spheres.positions == std::vector<Vec3>{Vec3(0, 0, 1), Vec3(2, 0, 1)});
+    CHECK(spheres.radii == std::vector<double>{0.5, 0.25});
+    CHECK(spheres.velocities == std::vector<Vec3>{Vec3(1, 2, 3), Vec3(4, 5, 6)});
+}
+
+TEST_CASE("what a file has beyond that is passed over, and said", "[sphere_file]")
+{
+    const auto spheres = spheres_of("s.csv", "time_s,x,y,z,r,mass,note\n0,1,2,3,4,5,\"a, b\"\n");
+    CHECK(spheres.columns == "takes x, y, z, r; passes over time_s, mass, note");
+    CHECK(spheres_of("s.csv", "x,y,z\n0,0,0\n").columns == "takes x, y, z");
+}
+
+TEST_CASE("a file has materials by name, or by number where the scene has so many", "[sphere_file]")
+{
+    const SceneFolder folder;
+    const std::vector<std::string> known = {"glass", "steel"};
+    const auto of = [&](const std::string& header, const std::string& first, const std::string& second) {
+        const auto path = folder.write("s.csv", "x,y,z," + header + "\n0,0,0," + first + "\n1,1,1," + second + "\n");
+        return read_spheres(path, known).materials;
+    };
+    const std::vector<std::string> both = {"steel", "glass"};
+    CHECK(of("material", "steel", "glass") == both);
+    CHECK(of("material", "1", "0") == both);
+    CHECK(of("type", "2", "1") == both);
+    CHECK(of("type", "3", "1").empty());
+    CHECK(of("material", "lead", "glass") == std::vector<std::string>{"lead", "glass"}); // the scene refuses it
+}
+
+TEST_CASE("dumps and data files of LAMMPS give their atoms", "[sphere_file]")
+{
+    const auto dump =
+        spheres_of("s.dump", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff ff\n0 1\n"
+                             "0 1\n0 1\nITEM: ATOMS id type x y z radius vx vy vz omegax omegay omegaz\n"
+                             "1 1 9 9 9 1 0 0 0 0 0 0\nITEM: TIMESTEP\n1\nITEM: ATOMS id type x y z radius vx "
+                             "vy vz omegax omegay omegaz\n2 1 2 0 1 0.25 4 5 6 0 0 -1\n1 1 0 0 1 0.5 1 2 3 7 8 9\n");
+    const auto data = spheres_of("s.data", "beads\n\n2 atoms\n1 atom types\n\nAtoms # sphere\n\n2 1 0.5 2500 2 0 1\n"
+                                           "1 1 1 2500 0 0 1\n\nVelocities\n\n1 1 2 3 7 8 9\n2 4 5 6 0 0 -1\n");
+    for (const auto& spheres : {dump, data}) {
+        CHECK(spheres.positions == std::vector<Vec3>{Vec3(0, 0, 1), Vec3(2, 0, 1)});
+        CHECK(spheres.radii == std::vector<double>{0.5, 0.25});
+        CHECK(spheres.velocities == std::vector<Vec3>{Vec3(1, 2, 3), Vec3(4, 5, 6)});
+        CHECK(spheres.angular_velocities == std::vector<Vec3>{Vec3(7, 8, 9), Vec3(0, 0, -1)});
+    }
+    CHECK(refusal_of("s.data", "beads\n\nAtoms # atomic\n\n1 1 0 0 0\n") ==
+          "s.data:3: atoms of the style 'atomic' have no radii; 'sphere' is read");
+    CHECK(refusal_of("s.dump", "ITEM: ATOMS id x y z\n1 0 0\n") == "s.dump:2: here 4 numbers are wanted, not 3");
+    CHECK(refusal_of("s.data", "nothing\n") == "s.data: it has no atoms: neither a dump with 'ITEM: ATOMS' nor a data "
+                                               "file with 'Atoms # sphere'");
+}
+
+TEST_CASE("arrays of other codes' VTK files are taken, and a legacy file is read", "[sphere_file]")
+{
+    const auto array = [](const std::string& name, const std::string& numbers) {
+        return "<DataArray Name='" + name + "' type='Float64' format='ascii' NumberOfComponents='3'>" + numbers +
+               "</DataArray>";
+    };
+    const auto names = GENERATE(table<std::string, std::string>({{"v", "omega"}, {"Velocity", "AngularVelocity"}}));
+    const auto spheres = spheres_of(
+        "s.vtu", vtu(radii + array(std::get<0>(names), "1 2 3 4 5 6") + array(std::get<1>(names), "7 8 9 0 0 -1")));
+    CHECK(spheres.velocities == std::vector<Vec3>{Vec3(1, 2, 3), Vec3(4, 5, 6)});
+    CHECK(spheres.angular_velocities == std::vector<Vec3>{Vec3(7, 8, 9), Vec3(0, 0, -1)});
+    const auto legacy =
+        spheres_of("s.vtk", "# vtk DataFile Version 3.0\nbeads\nASCII\nDATASET POLYDATA\nPOINTS 2 double\n"
+                            "0 0 1 2 0 1\nVERTICES 2 4\n1 0\n1 1\nPOINT_DATA 2\nSCALARS radius double 1\n"
+                            "LOOKUP_TABLE default\n0.5 0.25\n");
+    CHECK(legacy.positions == std::vector<Vec3>{Vec3(0, 0, 1), Vec3(2, 0, 1)});
+    CHECK(legacy.radii == std::vector<double>{0.5, 0.25});
+}
+
 TEST_CASE("a broken .csv file of spheres is refused with its line", "[sphere_file]")
 {
-    CHECK(refusal_of("s.csv", "x,y,z,r\n") ==
-          "s.csv:1: unknown column 'r'; the header may name 'id', 'x', 'y', 'z', 'radius', 'diameter', 'vx', 'vy', "
-          "'vz', 'wx', 'wy' and 'wz'");
-    CHECK(refusal_of("s.csv", "radius\n1\n") == "s.csv:1: the columns 'x', 'y' and 'z' are wanted");
+    CHECK(refusal_of("s.csv", "x,y,z,r\n") == "s.csv:1: no line of numbers follows the header");
+    CHECK(refusal_of("s.csv", "x,y,z,x\n1,1,1,1\n") == "s.csv:1: column 'x' is there twice");
+    CHECK(refusal_of("s.csv", "x,y,z,\"r\n1,1,1,1\n") == "s.csv:1: a quote is opened and not closed");
+    CHECK(refusal_of("s.csv", "id,x,y,z\n1,0,0,0\n2,1,1,1\n1,2,2,2\n") == "s.csv:4: two spheres have the id 1");
+    CHECK(refusal_of("s.csv", "radius,a\n1,1\n") == "s.csv:1: the columns 'x', 'y' and 'z' are wanted");
     CHECK(refusal_of("s.csv", "x,y\n1,1\n") == "s.csv:1: of 'x', 'y' and 'z' all must be there");
     CHECK(refusal_of("s.csv", "x,y,z,vx\n1,1,1,1\n") == "s.csv:1: of 'vx', 'vy' and 'vz' all must be there");
-    CHECK(refusal_of("s.csv", "x,y,z,radius,diameter\n1,1,1,1,2\n") == "s.csv:1: 'radius' or 'diameter', not both");
     CHECK(refusal_of("s.csv", "x,y,z,radius\n1,1,1,1\n1,1,1,0\n") == "s.csv:3: the radius must be above 0");
     CHECK(refusal_of("s.csv", "x,y,z,diameter\n1,1,1,-1\n") == "s.csv:2: the diameter must be above 0");
     CHECK(refusal_of("s.csv", "x,y,z\n1,1,inf\n") == "s.csv:2: 'inf' is not a finite number");
@@ -159,8 +249,8 @@ TEST_CASE("a VTK file with wrong numbers is refused with the point", "[sphere_fi
         return vtu("<DataArray Name='" + name + "' type='Float64' format='ascii' NumberOfComponents='" +
                    std::to_string(components) + "'>" + numbers + "</DataArray>");
     };
-    CHECK(refusal_of("s.vtu", array("radius", "1 0")) == "s.vtu: the radius of point 1 must be above 0");
-    CHECK(refusal_of("s.vtu", array("diameter", "-2 1")) == "s.vtu: the radius of point 0 must be above 0");
+    CHECK(refusal_of("s.vtu", array("radius", "1 0")) == "s.vtu: point 1: the radius must be above 0");
+    CHECK(refusal_of("s.vtu", array("diameter", "-2 1")) == "s.vtu: point 0: the diameter must be above 0");
     CHECK(refusal_of("s.vtu", array("radius", "1 2 3 4", 2)) ==
           "s.vtu: array 'radius' must have 1 numbers for each of the 2 points, not 2 for 2");
     CHECK(refusal_of("s.vtu", array("velocity", "1 2")) ==
@@ -219,7 +309,8 @@ TEST_CASE("sizes that no file can have are refused", "[sphere_file]")
 TEST_CASE("a file of spheres that is missing, empty, or of another kind is refused", "[sphere_file]")
 {
     CHECK(refusal_of("s.vtp", "") == "s.vtp: the file is empty");
-    CHECK(refusal_of("s.txt", "1 2 3") == "s.txt: spheres are read from .vtp, .vtu and .csv files");
+    CHECK(refusal_of("s.doc", "1 2 3") == "s.doc: spheres are read from .csv, .txt, .vtp, .vtu and .vtk files, and "
+                                          "from LAMMPS's .dump, .lammpstrj and .data");
     const SceneFolder folder;
     for (const char* name : {"none.vtp", "none.vtu", "none.csv"})
         CHECK(folder.without_folder(error_of<InputError>([&] { read_spheres(folder.path() / name); })) ==

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -73,6 +74,18 @@ TEST_CASE("ASCII takes capitals, Windows line ends, signs, exponents and several
     CHECK(soup.vertices[static_cast<std::size_t>(soup.triangles[0][0])] == Vec3(1.5e-3, -2, 0.5));
 }
 
+TEST_CASE("ASCII with a byte order mark, comments or old line ends is read", "[stl]")
+{
+    std::string old = "solid a\n" + facet + "endsolid a\n";
+    std::ranges::replace(old, '\n', '\r');
+    for (const std::string& bytes :
+        {"\xef\xbb\xbfsolid a\n" + facet + "endsolid a\n", "# made by hand\nsolid a\n" + facet + "endsolid\n",
+            "; a\n// b\nsolid a\n# c\n" + facet + "# d\nendsolid a\n", old})
+        CHECK(soup_of(bytes).triangles.size() == 1);
+    std::ranges::replace(old, '0', 'o');
+    CHECK(refusal_of_stl(old) == "w.stl:4: 'o' is not a finite number");
+}
+
 TEST_CASE(
     "a binary file gives its triangles with equal corners merged, even where its header begins with solid", "[stl]")
 {
@@ -109,6 +122,10 @@ TEST_CASE("broken binary is refused with what it lacks", "[stl]")
           "w.stl: as binary STL with 4000000000 triangles it must have 200000000084 bytes, but it has 184");
     CHECK(refusal_of_stl(binary_square(2, std::numeric_limits<float>::quiet_NaN())) ==
           "w.stl: triangle 2 has a coordinate that is not a finite number");
+    const std::string obj =
+        "# a mesh of another kind\n" + std::string(100, ' ') + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    CHECK(refusal_of_stl(obj) ==
+          "w.stl: it is text, but no ASCII STL, which begins with 'solid'; meshes are read from STL files only");
     CHECK(refusal_of_stl("not a mesh") == "w.stl: neither ASCII STL nor long enough for binary STL");
     CHECK(refusal_of_stl(binary_square(0).substr(0, 84)) == "w.stl: it has no triangles");
 }

@@ -45,18 +45,61 @@ scene::FillTable ball(double diameter, const Vec3& position)
 
 } // namespace
 
-TEST_CASE("a fill by mass or by the share of its region has as many spheres as that is", "[fills]")
+TEST_CASE("a fill by mass or by the share of its region meets it to one sphere", "[fills]")
 {
     auto scene = roomy_scene();
-    scene.fill[0].diameter = {.distribution = "uniform", .min = 0.008, .max = 0.012};
+    scene.seed = GENERATE(range(1, 6));
+    scene.fill[0].arrangement = GENERATE(as<std::string>{}, "lattice", "random", "dense");
+    scene.fill[0].diameter = {.distribution = "normal", .mean = 0.01, .deviation = 0.004, .min = 0.004, .max = 0.018};
     scene.fill[0].mass = 1.0;
-    CHECK(mass_of(build_scene(scene).simulation.state) == Approx(1.0).epsilon(0.05)); // of 735 spheres
+    const double largest = 2500.0 * std::numbers::pi / 6.0 * std::pow(0.018, 3);
+    CHECK(mass_of(build_scene(scene).simulation.state) == Approx(1.0).margin(0.5 * largest));
     scene.fill[0].mass = 0.0;
-    scene.fill[0].filling = 0.2;
+    scene.fill[0].filling = 0.05;
     const auto simulation = build_scene(scene).simulation;
-    CHECK(mass_of(simulation.state) / 2500.0 == Approx(0.2 * 0.008).epsilon(0.03)); // of 2937
+    CHECK(mass_of(simulation.state) == Approx(2500.0 * 0.05 * 0.008).margin(0.5 * largest));
     scene.fill[0].count = 3;
     CHECK_THROWS_WITH(build_scene(scene), "give 'count', 'mass' or 'filling', only one of them");
+}
+
+TEST_CASE("species and the classes of a sieve analysis have their shares of the mass to one sphere", "[fills]")
+{
+    auto scene = roomy_scene();
+    scene.materials.push_back({"steel", 7800.0});
+    for (const auto* other : {"glass", "steel"}) scene.contact.push_back({{"steel", other}});
+    scene.seed = GENERATE(range(1, 6));
+    const bool by_mass = GENERATE(false, true);
+    scene::FillTable& fill = scene.fill[0];
+    fill.material.clear();
+    fill.diameter = {};
+    fill.species = {{"glass", {.distribution = "uniform", .min = 0.004, .max = 0.012}, 3.0},
+        {"steel",
+            {.distribution = "sieve",
+                .file = "s.csv",
+                .sieve_sizes = {0.004, 0.008, 0.012},
+                .sieve_passing = {0, 0.4, 1}},
+            1.0}};
+    fill.count = by_mass ? 0 : 561;
+    fill.mass = by_mass ? 1.0 : 0.0;
+    const State state = build_scene(scene).simulation.state;
+    double glass = 0.0, fine = 0.0, coarse = 0.0;
+    for (std::size_t i = 0; i < state.count(); ++i) {
+        double& part = state.material[i] == 0 ? glass : state.radius[i] < 0.004 ? fine : coarse;
+        part += state.mass(i);
+    }
+    const double all = mass_of(state), of_steel = 7800.0 * std::numbers::pi / 6.0;
+    CHECK(glass == Approx(0.75 * all).margin(of_steel * std::pow(0.012, 3)));
+    CHECK(fine == Approx(0.4 * 0.25 * all).margin(of_steel * std::pow(0.012, 3)));
+    CHECK(coarse == Approx(0.6 * 0.25 * all).margin(of_steel * std::pow(0.012, 3)));
+}
+
+TEST_CASE("a fill of less than one sphere is refused, with what one has", "[fills]")
+{
+    auto scene = roomy_scene();
+    scene.fill[0].diameter = {.distribution = "uniform", .min = 0.5, .max = 4.0}; // m for mm
+    scene.fill[0].mass = 0.15;
+    CHECK_THROWS_WITH(build_scene(scene), Contains("this is less than one sphere, which has") &&
+                                              Contains("kg on average: check sizes, density and units"));
 }
 
 TEST_CASE("a fill that is given no spheres is warned of", "[fills]")
@@ -175,7 +218,7 @@ TEST_CASE("a dense fill of mixed sizes takes 0.55 of its region before it settle
     region.top_radius = 0.06;
     region.center = Vec3::Constant(0.1);
     region.radius = 0.05;
-    scene.fill[0].filling = 0.59; // as the mean sphere has it: a draw of few large ones differs by 4 %
+    scene.fill[0].filling = 0.56;
     const auto simulation = build_scene(scene).simulation;
     const auto& state = simulation.state;
     const Region filled = require_region(region, "");

@@ -44,9 +44,11 @@ std::vector<PackedSphere> pack(const std::string& arrangement, const Region& reg
 {
     Random random(seed);
     const PackingRoom room(region, {}, model);
-    if (arrangement == "dense") return dense_packing(room, grains, count, others, random);
-    return arrangement == "lattice" ? lattice_packing(room, grains, count, 1.1, others, random)
-                                    : random_packing(room, grains, count, others, random);
+    const Materials glass{{{.name = "glass", .density = 2500.0}}, {}};
+    GrainSource source(grains, glass, {.count = count});
+    if (arrangement == "dense") return dense_packing(room, source, others, random);
+    return arrangement == "lattice" ? lattice_packing(room, source, 1.1, others, random)
+                                    : random_packing(room, source, others, random);
 }
 
 /// Least gap between any two of the spheres.

@@ -77,8 +77,12 @@ const std::vector<Mistake> of_sensors = {
              t.region.radius = t.region.height = 0.1;
          }),
         "sensor[0].direction", "a box is cut along 'x', 'y' or 'z', a cylinder 'axial' or 'radial'"},
-    {add_sensor("profile", [](auto& t) { t.name = "../a"; }), "sensor[0].name",
-        "the name of a profile is part of a file's name: use letters, digits, '.', '_' and '-' only"},
+    {add_sensor("profile", [](auto& t) { t.name = "a/b"; }), "sensor[0].name",
+        "the name of a profile is part of a file's name: use letters, digits, '_' and '-' only, one at least"},
+    {add_sensor("profile", [](auto& t) { t.name = ""; }), "sensor[0].name",
+        "the name of a profile is part of a file's name: use letters, digits, '_' and '-' only, one at least"},
+    {add_sensor("region", [](auto& t) { t.name = "a.b"; }), "sensor[0].name",
+        "the name 'a.b' has a '.', with which --set could not name it"},
     {add_sensor("profile", [](auto& t) { t.name = std::string(201, 'a'); }), "sensor[0].name",
         "the name of a profile is part of a file's name: at most 200 characters"},
     {add_sensor("wall_force", [](auto& t) { t.wall = "flor"; }), "sensor[0].wall",
@@ -99,6 +103,14 @@ const std::vector<Mistake> of_sensors = {
 };
 
 const std::vector<Mistake> of_the_rest = {
+    {[](S& s) {
+         s.world.periodic = {"x", "x"};
+     },
+        "world.periodic", "the axis x is there twice"},
+    {[](S& s) { s.wall[0].name = "a.b"; }, "wall[0].name",
+        "the name 'a.b' has a '.', with which --set could not name it"},
+    {[](S& s) { s.materials[0].name = "b.c"; }, "materials.b.c",
+        "the name 'b.c' has a '.', with which --set could not name it"},
     {[](S& s) { s.world.max = s.world.min = Vec3::Zero(); }, "world.max",
         "the world is empty: every coordinate of 'min' must be below that of 'max'"},
     {[](S& s) { s.solver.max_sweeps = 1; }, "solver.max_sweeps", "'max_sweeps' must be at least the 2 of 'min_sweeps'"},

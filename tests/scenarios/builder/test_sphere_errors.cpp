@@ -183,7 +183,7 @@ const std::vector<Mistake> of_insertion = {
          list_spheres(s);
          s.fill[0].material.clear();
      },
-        "fill[0].material", "give the 'material' of the file's spheres"},
+        "fill[0].material", "the file has no materials: give the 'material' of its spheres"},
     {[](S& s) {
          list_spheres(s);
          s.world.max.x() = 0.02;
