@@ -238,8 +238,6 @@ struct PourTable {
 /// The names of all materials in a fill or a pour.
 std::vector<std::string> materials_in(const auto& table)
 {
-    if constexpr (requires { table.spheres; })
-        if (!table.spheres.materials.empty()) return table.spheres.materials;
     if (table.species.empty()) return {table.material};
     std::vector<std::string> names;
     for (const SpeciesTable& species : table.species) names.push_back(species.material);

@@ -4,6 +4,7 @@
 #include "core/contacts/loads.hpp"
 #include "core/sensors/region_share.hpp"
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -117,7 +118,6 @@ void RegionAverage::sample(const Snapshot& now)
         content.backbone_links / content.backbone, u.x(), u.y(), u.z(), fluctuation.trace() / (3.0 * content.mass),
         stress(0, 0), stress(1, 1), stress(2, 2), stress(1, 2), stress(0, 2), stress(0, 1), stress.trace() / 3.0};
     if (!window_.contains(now.state.time)) return;
-    held_ = held_ || content.spheres > 0.0;
 
     // In the mean over time a sphere weighs the same whenever it is seen; stress and packing belong to the region.
     std::array<double, quantities> weight;
@@ -137,16 +137,17 @@ std::vector<Measurement> RegionAverage::latest() const
 
 std::vector<Measurement> RegionAverage::results() const
 {
+    const bool never_held = std::isnan(means_[3].mean()); // a velocity, which weighs as much as the region holds
     std::vector<Measurement> all;
     for (std::size_t k = 0; k < quantities; ++k)
-        all.push_back(held_ ? measurement(quantity[k].name, means_[k], quantity[k].unit)
-                            : Measurement{quantity[k].name, nothing, nothing, quantity[k].unit});
+        all.push_back(never_held ? Measurement{quantity[k].name, nothing, nothing, quantity[k].unit}
+                                 : measurement(quantity[k].name, means_[k], quantity[k].unit));
     return all;
 }
 
 void RegionAverage::persist(Archive& archive)
 {
-    archive(latest_, held_);
+    archive(latest_);
     for (BlockMean& mean : means_) archive(mean);
 }
 

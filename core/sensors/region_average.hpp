@@ -45,7 +45,6 @@ private:
     TimeWindow window_;
     std::array<double, quantities> latest_;
     std::array<BlockMean, quantities> means_;
-    bool held_ = false; ///< anything, in the window
 };
 
 } // namespace talus

@@ -121,10 +121,11 @@ std::vector<Vec3> vectors_of(const SphereColumns& columns, const std::optional<s
 }
 
 /// The name of the material of each sphere; nothing where the column has numbers of which the scene has no material.
+/// Types count from 1, as those of LAMMPS.
 std::vector<std::string> materials_of(
     const SphereColumns& columns, std::size_t column, const std::vector<std::string>& materials)
 {
-    const int first = plain(columns.names[column]) == "type" ? columns.first_type : 0;
+    const int first = plain(columns.names[column]) == "type" ? 1 : 0;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < columns.rows; ++i) {
         const std::string text = columns.text(i, column);

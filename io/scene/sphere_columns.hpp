@@ -19,7 +19,6 @@ struct SphereColumns {
     std::function<std::string(std::size_t row, std::size_t column)> text;
     std::function<void(std::size_t row, const std::string& sentence)> refuse_row; ///< throws InputError
     std::function<void(const std::string& sentence)> refuse;                      ///< throws InputError
-    int first_type = 1; ///< which number stands for the first material where the column is called `type`
 };
 
 /// What the columns say of spheres, in the order of their ids where they have any. Other codes' names are known, too,

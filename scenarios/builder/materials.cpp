@@ -3,7 +3,6 @@
 
 #include "scenarios/builder/checks.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -58,16 +57,14 @@ double most_spheres(const scene::PourTable& pour)
 std::map<std::string, double> count_spheres(const scene::Scene& scene)
 {
     std::map<std::string, double> count;
-    const auto add = [&](const auto& tables) {
-        for (const auto& table : tables) {
-            const std::vector<std::string> names = materials_in(table); // of a file, one for each sphere
-            const bool one_by_one = names.size() > 1 && most_spheres(table) == static_cast<double>(names.size());
-            for (const auto& name : set_of(names))
-                count[name] += one_by_one ? static_cast<double>(std::ranges::count(names, name)) : most_spheres(table);
-        }
+    const auto add = [&](const auto& table) {
+        for (const auto& name : set_of(materials_in(table))) count[name] += most_spheres(table);
     };
-    add(scene.fill);
-    add(scene.pour);
+    for (const auto& fill : scene.fill) {
+        if (fill.spheres.materials.empty()) add(fill);
+        for (const auto& name : fill.spheres.materials) count[name] += 1.0;
+    }
+    for (const auto& pour : scene.pour) add(pour);
     return count;
 }
 

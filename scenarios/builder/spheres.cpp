@@ -116,12 +116,12 @@ std::vector<PackedSphere> listed_spheres(
     const auto& own = table.spheres.materials;
     if (table.material.empty() && own.empty())
         throw SceneError(key + ".material", "the file has no materials: give the 'material' of its spheres");
+    const int of_all = own.empty() ? material_index(materials, table.material, key + ".material") : 0;
     const auto radii = listed_radii(table, key);
     std::vector<PackedSphere> spheres;
     for (std::size_t i = 0; i < positions.size(); ++i)
-        spheres.push_back({positions[i], radii[i],
-            own.empty() ? material_index(materials, table.material, key + ".material")
-                        : material_index(materials, own[i], key + ".file")});
+        spheres.push_back(
+            {positions[i], radii[i], own.empty() ? of_all : material_index(materials, own[i], key + ".file")});
     return spheres;
 }
 

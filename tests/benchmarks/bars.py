@@ -69,8 +69,8 @@ def of_peers(store, asked):
         return
     error = own["flow"] / converged["flow"] - 1.0
     spread = sum((row["flow_error"] / row["flow"]) ** 2 for row in (own, converged)) ** 0.5
-    most, told = (2.0 * spread, "two standard errors") if asked.name == "silo_2000" else (0.03, "3 %")
-    yield Bar(1, f"{name}: flow against the converged run", f"within {told}", f"{error:+.1%} ± {spread:.1%}",
+    most, limit = (2.0 * spread, "two standard errors") if asked.name == "silo_2000" else (0.03, "3 %")
+    yield Bar(1, f"{name}: flow against the converged run", f"within {limit}", f"{error:+.1%} ± {spread:.1%}",
               abs(error) <= most)
 
 
@@ -147,5 +147,6 @@ def bars(store, triad):
     """All bars. `triad` is in GB/s, of one thread."""
     steps = store.get("steps", {})
     figures = steps.get("figures", {})
-    return [*(bar for asked in PEER_BARS for bar in of_peers(store, asked)), *of_sweeps(steps, figures, triad), *of_threads(figures),
+    of_all_peers = [bar for asked in PEER_BARS for bar in of_peers(store, asked)]
+    return [*of_all_peers, *of_sweeps(steps, figures, triad), *of_threads(figures),
             *of_settled(figures), *of_size(figures)]

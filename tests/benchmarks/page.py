@@ -146,15 +146,18 @@ def peer_tables(part):
         how = f"{runs} runs each, the median; of the flow the mean." if runs > 1 else "One run each."
         lines += [f"### {setup.replace('_', ' of ').capitalize()}", "", how, ""]
         if setup.startswith("silo"):
-            header = ("code", "setting", "step [ms]", "settling, CPU s", "discharging, CPU s", "flow", "mean overlap before opening",
+            header = ("code", "setting", "step [ms]", "settling, CPU s", "discharging, CPU s", "flow",
+                      "mean overlap before opening",
                       "worst", "mean while flowing", "worst")
-            cells = [(row["code"], row["setting"], number(1e3 * row["step"]), number(row["settling_cpu"]), number(row["flowing_cpu"]),
+            cells = [(row["code"], row["setting"], number(1e3 * row["step"]), number(row["settling_cpu"]),
+                      number(row["flowing_cpu"]),
                       f"{number(row['flow'])} ± {row['flow_error']:.0f}",
                       *(f"{row[name]:.3%}" for name in ("rest_mean", "rest_worst", "flow_mean", "flow_worst")))
                      for row in rows]
         else:
             header = ("code", "setting", "step [ms]", "CPU s", "angle [°]", "over the lip", "mean overlap", "worst")
-            cells = [(row["code"], row["setting"], number(1e3 * row["step"]), number(row["flowing_cpu"]), f"{row['angle']:.1f}",
+            cells = [(row["code"], row["setting"], number(1e3 * row["step"]), number(row["flowing_cpu"]),
+                      f"{row['angle']:.1f}",
                       number(row["lost"]), f"{row['rest_mean']:.3%}", f"{row['rest_worst']:.2%}") for row in rows]
         lines.append(table(header, cells, texts=2))
     return "\n".join(lines)

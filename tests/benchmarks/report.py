@@ -20,7 +20,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-from front import draw_front
 from page import page
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -89,7 +88,8 @@ def main():
                        "date": datetime.date.today().isoformat(), **found}
         STORE.write_text(json.dumps(store, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     PAGE.write_text(page(store), encoding="utf-8")
-    if "peers" in store:
+    if words in (["peers"], ["page"]) and "peers" in store:
+        from front import draw_front  # needs Matplotlib, which figures of steps do not
         draw_front(store["peers"]["rows"], PAGE.with_name("front.svg"))
     return 0
 

@@ -147,6 +147,19 @@ TEST_CASE("a temperature gives normal velocities of that mean square along each 
     }
 }
 
+TEST_CASE("each of two species may have all spheres of a fill, and needs a contact with its own kind", "[fills]")
+{
+    auto scene = roomy_scene();
+    scene.materials.push_back({"lead", 11340.0});
+    scene.contact.push_back(scene.contact[0]);
+    scene.contact[1].between = {"glass", "lead"};
+    scene.fill[0].material.clear();
+    scene.fill[0].diameter = {};
+    scene.fill[0].species = {{"glass", {.value = 0.01}, 1.0}, {"lead", {.value = 0.01}, 1.0}};
+    scene.fill[0].count = 2;
+    CHECK_THROWS_WITH(build_scene(scene), Contains("no [[contact]] between lead and lead"));
+}
+
 TEST_CASE("a sphere that is alone needs no contact with its own kind", "[fills]")
 {
     auto scene = roomy_scene();
