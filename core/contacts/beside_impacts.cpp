@@ -90,10 +90,7 @@ private:
             .was_impact = own.touch.last() == TouchRecord::impact,
             .impact = std::max(a.size, b.size),
             .pressed = std::max(a.load, b.load)};
-        if (const auto law = beside_impact(at, step))
-            contacts_.set_law(k, *law);
-        else
-            contacts_.hand_on_at_most(k, at.hands_on());
+        if (const auto law = beside_impact(at, step)) contacts_.set_law(k, *law);
         return at.is_loaded(step);
     }
 };

@@ -63,7 +63,7 @@ void TileContacts::set_law(std::size_t k, const BesideImpact& law)
     pack.normal_mass[lane] = 1.0 / record.inverse_mass_sum[lane];
     record.kind[lane] = law.kind;
     record.compression[lane] = static_cast<float>(law.compression);
-    hand_on_at_most(k, law.hands_on);
+    record.hands_on[lane] = static_cast<float>(law.hands_on);
     record.push[lane] = 0.0F;
 }
 

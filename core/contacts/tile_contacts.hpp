@@ -32,11 +32,6 @@ public:
     }
     /// Contact k gets another normal law, since an impact is beside it.
     void set_law(std::size_t k, const BesideImpact& law);
-    /// Contact k hands this on to the next step at most [N s], along its normal.
-    void hand_on_at_most(std::size_t k, double normal_impulse)
-    {
-        records_[k / pack_size].hands_on[k % pack_size] = static_cast<float>(normal_impulse);
-    }
     void set_rolling(std::size_t k, const RollingRow& row);
     void set_wall(std::size_t k, const WallRow& row);
     void set_touch(std::size_t k, TouchRecord touch)

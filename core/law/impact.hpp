@@ -54,9 +54,6 @@ struct Bystander {
     double load(const LawOfStep& step) const { return step.parts * impulse; }
     /// Whether it bears a load, and the impact with it.
     bool is_loaded(const LawOfStep& step) const { return load(step) >= load_share * impact; }
-    /// The normal impulse that it hands on at most [N s]: what impacts press on beside it is no load that it may count
-    /// on in the next step, but what its spheres bore is.
-    double hands_on() const { return std::max(impulse, pressed); }
 };
 
 /// What such a contact does.
@@ -69,14 +66,15 @@ struct BesideImpact {
 
 /// One that had no load is *deferred*: it does not close further than to `deferred_overlap`, and in the next step it is
 /// an impact of its own. One with a load that is light beside the impact *bears* it: it is rigid. So is what was an
-/// impact and parts. All others stay what they are.
+/// impact and parts. All others stay what they are. What impacts press on beside them is no load that a contact may
+/// count on in the next step, but what its spheres bore is.
 inline std::optional<BesideImpact> beside_impact(const Bystander& at, const LawOfStep& step)
 {
     const bool is_loaded = at.is_loaded(step), is_light = at.load(step) < light_share * at.impact;
     const bool parts = at.was_impact && at.u_n > touching_gap * step.min_diameter / step.h; // but for rounding
     if (parts || (is_loaded && is_light))
         return {{ContactKind::bearing, std::min(-std::max(0.0, at.gap) / step.h, -at.u_n),
-            borne_compression<double>(at.compression, at.u_n, step), at.hands_on()}};
+            borne_compression<double>(at.compression, at.u_n, step), std::max(at.impulse, at.pressed)}};
     if (!is_loaded && !at.was_impact)
         return {{ContactKind::deferred, std::min(-(at.gap + deferred_overlap * step.min_diameter) / step.h, -at.u_n),
             -__builtin_inf(), 0.0}};
