@@ -22,10 +22,23 @@ constexpr std::array<std::string_view, 10> changeable = {"title", "time.duration
     "time.metrics_interval", "[output]", "[checkpoint]", "solver.tolerance", "solver.max_sweeps",
     "solver.on_no_solution", "world.on_escape"};
 
-bool may_change(std::string_view key)
+/// How spheres go on from a state.
+constexpr std::array<std::string_view, 7> settings = {
+    "[time]", "[solver]", "[targets]", "accuracy", "[contact]", "[sensor]", "world.gravity"};
+
+/// @param key with an index where its table is one of a list: "contact[0].friction"
+bool is_among(const auto& names, const std::string& key)
 {
-    const std::string table = fmt::format("[{}]", key.substr(0, key.find('.')));
-    return std::ranges::any_of(changeable, [&](std::string_view one) { return one == key || one == table; });
+    const std::string table = fmt::format("[{}]", key.substr(0, key.find_first_of(".[")));
+    return std::ranges::any_of(names, [&](std::string_view one) { return one == key || one == table; });
+}
+
+void refuse_other_files(const std::vector<NamedFile>& files, const RunOrigin& origin)
+{
+    for (std::size_t k = 0; k < files.size(); ++k)
+        if (files[k].sum != origin.files.at(k))
+            throw InputError(fmt::format(
+                "{}: the file has changed since the run began; it goes on only with the old one", files[k].path));
 }
 
 } // namespace
@@ -42,13 +55,20 @@ void refuse_other_scene(const SceneFile& file, const RunOrigin& origin)
 {
     const auto files = named_files(file.scene);
     for (const std::string& key : changed_keys(parse_scene(origin.scene), with_copies(file.scene, files)))
-        if (!may_change(key))
+        if (!is_among(changeable, key))
             throw InputError(fmt::format("{}: '{}' may not change when a run is resumed; what may is {}",
                 file.place_of(key), key, fmt::join(changeable, ", ")));
-    for (std::size_t k = 0; k < files.size(); ++k)
-        if (files[k].sum != origin.files.at(k))
-            throw InputError(fmt::format(
-                "{}: the file has changed since the run began; it goes on only with the old one", files[k].path));
+    refuse_other_files(files, origin);
+}
+
+void refuse_other_state(const scene::Scene& scene, const RunOrigin& origin)
+{
+    const auto files = named_files(scene);
+    for (const std::string& key : changed_keys(parse_scene(origin.scene), with_copies(scene, files)))
+        if (!is_among(changeable, key) && !is_among(settings, key))
+            throw InputError(fmt::format("the state is of another scene: '{}' differs; what may is {}, {}", key,
+                fmt::join(changeable, ", "), fmt::join(settings, ", ")));
+    refuse_other_files(files, origin);
 }
 
 } // namespace talus

@@ -27,4 +27,9 @@ RunOrigin origin_of(const std::string& scene_name, const scene::Scene& scene);
 /// @throws InputError with the key and what may change, or with the file that is another one now
 void refuse_other_scene(const SceneFile& file, const RunOrigin& origin);
 
+/// The same where a state is put into a simulation of a scene, perhaps under another setting: what spheres and walls
+/// there are must not change, since the state has them.
+/// @throws InputError
+void refuse_other_state(const scene::Scene& scene, const RunOrigin& origin);
+
 } // namespace talus

@@ -125,6 +125,8 @@ void remove_spheres(Session& session, const std::vector<std::int64_t>& ids)
 
 void write_frame(Session& session, const fs::path& path)
 {
+    if (is_of_others(path, frame_mark))
+        throw OutputError(path.string() + ": is no frame of Talus, and is not overwritten");
     write_particles(session.now(), session.opened().output, path);
 }
 
@@ -318,7 +320,6 @@ void bind_simulation(py::module_& module)
         .def_property_readonly("material_names", [](Session& s) { return names_of(s.now().model.materials.list); })
         .def_property_readonly(
             "wall_names", [](Session& s) { return names_of(s.now().model.walls); }, "by the index that contacts have")
-        .def_property_readonly("generation", &Session::generation)
         .def_property_readonly(
             "report", [](Session& s) { return s.now(), s.report(); }, "of the last step")
         .def_property_readonly(

@@ -25,6 +25,8 @@ namespace
 namespace fs = std::filesystem;
 namespace py = pybind11;
 
+constexpr int most_threads = 1024;
+
 /// Asks Python now and then whether Ctrl-C was pressed: not after every step, for other threads may hold its lock.
 class CtrlC
 {
@@ -72,6 +74,13 @@ int usual_threads()
     return threads;
 }
 
+int threads_or_usual(int threads)
+{
+    if (threads < 0 || threads > most_threads)
+        throw std::invalid_argument(fmt::format("threads is {}: give 1 to {}, or 0 for all", threads, most_threads));
+    return threads > 0 ? threads : usual_threads();
+}
+
 std::shared_ptr<Session> open_again(SceneFile file, const RunOrigin& origin, int threads)
 {
     refuse_other_scene(file, origin);
@@ -81,8 +90,8 @@ std::shared_ptr<Session> open_again(SceneFile file, const RunOrigin& origin, int
 } // namespace
 
 Session::Session(OpenedScene opened, int threads)
-    : opened_(std::move(opened)), threads_(threads > 0 ? threads : usual_threads()),
-      samples_(opened_.scene.time.metrics_interval), warnings_(opened_.report.warnings)
+    : opened_(std::move(opened)), threads_(threads_or_usual(threads)), samples_(opened_.scene.time.metrics_interval),
+      warnings_(opened_.report.warnings)
 {
     opened_.simulation.model.physics.wall_loads = true; // wall().force has them, whatever sensors ask for
 }
@@ -213,6 +222,8 @@ void Session::put_back(Archive& archive)
 
 void Session::save(const fs::path& file)
 {
+    if (is_of_others(file, checkpoint_mark))
+        throw OutputError(file.string() + ": is no checkpoint, and is not overwritten");
     Simulation& simulation = now();
     remove_escaped(simulation.escaped, simulation.state, simulation.network, report().bodies.incidents);
     RunOrigin origin = origin_of(opened_.name, opened_.scene);
@@ -227,14 +238,19 @@ void Session::save(const fs::path& file)
 std::string Session::state()
 {
     Archive archive;
+    RunOrigin origin = origin_of(opened_.name, opened_.scene);
+    archive(origin);
     now().persist_without_sensors(archive);
-    return archive.take_bytes();
+    return checkpoint_bytes(TALUS_VERSION, archive.bytes());
 }
 
 void Session::restore(const std::string& state)
 {
+    Archive archive(state_in(state, TALUS_VERSION));
+    RunOrigin origin;
+    archive(origin);
+    refuse_other_state(opened_.scene, origin);
     Simulation& simulation = change();
-    Archive archive(state);
     simulation.persist_without_sensors(archive);
     const double h = simulation.model.time_step;
     simulation.state.steps = std::llround(simulation.state.time / h);

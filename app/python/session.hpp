@@ -77,9 +77,8 @@ public:
     const StepReport& report() const { return loop_ ? loop_->last() : last_; }
 
     const std::shared_ptr<Lease>& lease();
-    std::int64_t generation() const { return generation_; } ///< rises with every step and change
-    const std::vector<std::size_t>& order();                ///< storage indices by id
-    std::size_t index_of(std::int64_t id);                  ///< @throws std::out_of_range
+    const std::vector<std::size_t>& order(); ///< storage indices by id
+    std::size_t index_of(std::int64_t id);   ///< @throws std::out_of_range
     std::vector<std::string> take_warnings();
 
 private:
@@ -96,7 +95,7 @@ private:
     std::vector<std::string> warnings_;
     std::shared_ptr<Lease> lease_; ///< where one was asked for since the last change
     std::vector<std::size_t> order_;
-    std::int64_t generation_ = 0, order_generation_ = -1;
+    std::int64_t generation_ = 0, order_generation_ = -1; ///< rise with every step and change
     std::atomic<bool> stepping_ = false;
 
     void make_steps(const std::function<void()>& make);

@@ -26,7 +26,6 @@ namespace fs = std::filesystem;
 constexpr const char* latest = "checkpoint.latest";
 constexpr const char* previous = "checkpoint.previous";
 
-constexpr std::string_view magic = "TALUSCHK";
 constexpr std::uint32_t format_version = 16;
 constexpr std::uint32_t byte_order = 0x01020304; ///< as this machine stores it
 
@@ -77,16 +76,15 @@ std::string header_bytes(const std::string& version, const std::string& state)
 }
 
 /// @throws Unusable
-std::string read_state(const fs::path& path, const std::string& version)
+std::string take_state(std::string bytes, const std::string& version)
 {
-    std::string bytes = bytes_of(path);
-    if (!bytes.starts_with(magic)) throw Unusable("it is no checkpoint of Talus");
+    if (!bytes.starts_with(checkpoint_mark)) throw Unusable("it is no checkpoint of Talus");
     Header header;
     std::size_t begin = 0;
     try {
-        Archive archive(bytes.substr(magic.size(), 4096));
+        Archive archive(bytes.substr(checkpoint_mark.size(), 4096));
         header = read_header(archive);
-        begin = magic.size() + archive.position();
+        begin = checkpoint_mark.size() + archive.position();
     } catch (const ArchiveError&) {
         throw Unusable("it ends in its header");
     }
@@ -101,15 +99,29 @@ std::string read_state(const fs::path& path, const std::string& version)
 
 } // namespace
 
+std::string checkpoint_bytes(const std::string& version, const std::string& state)
+{
+    return std::string(checkpoint_mark) + header_bytes(version, state) + state;
+}
+
+std::string state_in(const std::string& bytes, const std::string& version)
+{
+    try {
+        return take_state(bytes, version);
+    } catch (const Unusable& reason) {
+        throw InputError(std::string("the state cannot be put back: ") + reason.what());
+    }
+}
+
 void write_checkpoint_file(const fs::path& file, const std::string& version, const std::string& state)
 {
-    write_atomically(file, {magic, header_bytes(version, state), state});
+    write_atomically(file, {checkpoint_mark, header_bytes(version, state), state});
 }
 
 Checkpoint read_checkpoint_file(const fs::path& file, const std::string& version)
 {
     try {
-        return {read_state(file, version), file, ""};
+        return {take_state(bytes_of(file), version), file, ""};
     } catch (const Unusable& reason) {
         throw InputError(fmt::format("{}: {}", file.string(), reason.what()));
     }
@@ -135,7 +147,7 @@ Checkpoint read_checkpoint(const fs::path& folder, const std::string& version)
         std::error_code error;
         if (!fs::exists(path, error)) continue;
         try {
-            return {read_state(path, version), path, reasons};
+            return {take_state(bytes_of(path), version), path, reasons};
         } catch (const Unusable& reason) {
             reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", path.string(), reason.what());
         }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace talus
 {
@@ -14,14 +15,22 @@ struct Checkpoint {
     std::string newer_is_broken; ///< a sentence on why the newer one could not be used; empty where it was
 };
 
+/// What a checkpoint's file begins with.
+inline constexpr std::string_view checkpoint_mark = "TALUSCHK";
+
+/// A state as bytes that say what they are, with a checksum. io/README.md has the format.
+/// @param version of Talus; a state is only put back by the version that stored it
+std::string checkpoint_bytes(const std::string& version, const std::string& state);
+
+/// The state in such bytes. @throws InputError where they are of something else, of another version, or not whole
+std::string state_in(const std::string& bytes, const std::string& version);
+
 /// Writes a checkpoint, whole or not at all: checkpoint.latest, and what had that name becomes checkpoint.previous.
-/// io/README.md has the format.
 /// @param version of Talus
 /// @throws OutputError; the checkpoints there are then as they were
 void write_checkpoint(const std::filesystem::path& folder, const std::string& version, const std::string& state);
 
 /// Reads the newest checkpoint that is whole.
-/// @param version of Talus; a state is only put back by the version that stored it
 /// @throws InputError where there is none, or none that can be used, with the reason
 Checkpoint read_checkpoint(const std::filesystem::path& folder, const std::string& version);
 

@@ -68,6 +68,9 @@ private:
     void cut_back(const Series& series) const;
 };
 
+/// What a frame has near its beginning, and files of others have not: the units of its arrays.
+inline constexpr std::string_view frame_mark = "Name=\"units\"";
+
 /// Writes the spheres as a frame has them into a file that no list knows. @throws OutputError
 void write_particles(const Simulation& simulation, const OutputChoice& output, const std::filesystem::path& file);
 

@@ -11,6 +11,7 @@
 #include <cassert>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <string_view>
 #include <system_error>
 
@@ -171,6 +172,15 @@ void require_writable(const fs::path& path, bool force)
         throw InputError(fmt::format("{}: the file is there already; --force replaces it", path.string()));
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (::access(folder.c_str(), W_OK | X_OK) != 0) refuse_output(path, std::strerror(errno));
+}
+
+bool is_of_others(const fs::path& path, std::string_view mark)
+{
+    std::error_code error;
+    if (!fs::exists(path, error)) return false;
+    std::string begin(1000, '\0');
+    std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    return begin.find(mark) == std::string::npos;
 }
 
 void write_atomically(const fs::path& path, std::string_view text)

@@ -33,6 +33,9 @@ void copy_files(const std::vector<NamedFile>& files, const std::filesystem::path
 /// folder is not there or may not be written
 void require_writable(const std::filesystem::path& path, bool force);
 
+/// Whether something is there that has no such mark in its first thousand bytes, as all that Talus writes there has.
+bool is_of_others(const std::filesystem::path& path, std::string_view mark);
+
 /// Writes a whole file at once: to a temporary name, flushed to the disk, then renamed.
 /// @throws OutputError
 void write_atomically(const std::filesystem::path& path, std::string_view text);

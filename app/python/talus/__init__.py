@@ -11,14 +11,14 @@
 import os as _os
 from pathlib import Path as _Path
 
-from .errors import Incident, SceneError, StaleView, StepWarning
+from .errors import Incident, SceneError, StepWarning
 from .run import Measurement, Run, RunError, read_frame
 
 # Idle threads of GCC's OpenMP spin, on a processor that others may need, unless they are told when they are made.
 if "OMP_WAIT_POLICY" not in _os.environ:
     _os.environ.setdefault("GOMP_SPINCOUNT", "2000")
 
-__all__ = ["Incident", "Measurement", "Run", "RunError", "SceneError", "StaleView", "StepWarning", "read_frame"]
+__all__ = ["Incident", "Measurement", "Run", "RunError", "SceneError", "StepWarning", "read_frame"]
 
 try:
     from . import _core
@@ -27,8 +27,8 @@ except ImportError as _error:
 
     def __getattr__(name):
         if name in ("Findings", "Simulation", "check", "keys", "resume", "scenes", "__version__"):
-            raise ImportError(f"talus.{name} needs the compiled module, which is not here ({_reason}); "
-                              "talus.Run works without")
+            raise ImportError(f"talus.{name} needs the compiled module, which is not here ({_reason}): build it with "
+                              "app/setup all; talus.Run works without")
         raise AttributeError(f"module 'talus' has no attribute '{name}'")
 else:
     # Scenes lie in share/talus beside lib/python3/dist-packages, where it is installed, else in the source tree.

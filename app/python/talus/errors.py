@@ -38,9 +38,5 @@ class Incident(RuntimeError):
         return Incident, (str(self), json.dumps(self.incidents))
 
 
-class StaleView(RuntimeError):
-    """What a view showed is no more: a step was made, or something was changed."""
-
-
 class StepWarning(UserWarning):
     """A scene asks for what it hardly means, or its step is too long for what happens."""

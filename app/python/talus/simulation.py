@@ -115,6 +115,10 @@ class Simulation(_core.Simulation):
         Ctrl-C ends it between two steps, after which all can go on. Raises Incident.
         """
         until = self.duration if until is None else until
+        if not math.isfinite(until):
+            raise ValueError(f"until is {until}: give a time in seconds")
+        if every is not None and not 0 < every < math.inf:
+            raise ValueError(f"every is {every}: give a time in seconds above 0, or None for every step")
         while self.time < until - 1e-3 * self.step_length:
             if call is None:
                 self._run_until(until)
@@ -164,7 +168,7 @@ class Simulation(_core.Simulation):
 
     @property
     def view(self) -> View:
-        """The same without a copy: read only, in storage order, until the next step; then it raises StaleView."""
+        """The same without a copy, as they are now, read only, in storage order; later steps leave the arrays alone."""
         return View(self)
 
     def wall(self, name: str) -> _core.Wall:
