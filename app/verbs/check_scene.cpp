@@ -3,9 +3,9 @@
 
 #include "app/system/terminal.hpp"
 #include "app/verbs/forecast.hpp"
-#include "core/world/closed_mesh.hpp"
 #include "io/text/input_error.hpp"
 #include "scenarios/builder/checks.hpp"
+#include "scenarios/builder/meshes.hpp"
 
 #include <cmath>
 
@@ -57,13 +57,12 @@ void print_content(const std::string& what, const Box& box, double diameter, con
     say("  {:<24} {}{}\n", what, size, more);
 }
 
-std::string about_mesh(const Wall& wall)
+std::string about_mesh(const Wall& wall, double diameter)
 {
     const auto* mesh = std::get_if<Mesh>(&wall.shape);
     if (!mesh) return "";
-    const std::size_t open = open_edges(*mesh);
-    return fmt::format("; {} triangles, {}", mesh->triangles.size(),
-        open == 0 ? "closed" : fmt::format("open: {} edges belong to one triangle only", open));
+    const std::string holes = holes_in_words(*mesh, diameter);
+    return fmt::format("; {} triangles, {}", mesh->triangles.size(), holes.empty() ? "closed" : "open: " + holes);
 }
 
 void print_contents(const OpenedScene& opened)
@@ -79,14 +78,14 @@ void print_contents(const OpenedScene& opened)
         else if (fill.arrangement == "file")
             for (const Vec3& x : fill.spheres.positions) box.extend(x);
         else
-            box = require_region(fill.region, "").bounds();
+            box = require_region(fill.region, d, "").bounds();
         print_content(fmt::format("fill {}", k), box, d);
     }
     for (const Pour& pour : opened.simulation.pours)
         print_content(fmt::format("pour '{}'", pour.name), pour.region.bounds(), d);
     for (std::size_t k = 0; k < model.walls.size(); ++k)
         print_content(fmt::format("{} '{}'", scene.wall[k].shape, model.walls[k].name), bounds(model.walls[k].shape), d,
-            about_mesh(model.walls[k]));
+            about_mesh(model.walls[k], d));
     for (std::size_t k = 0; k < model.outlets.size(); ++k)
         print_content(fmt::format("outlet '{}'", scene.outlet[k].name), model.outlets[k].bounds(), d);
     say("world: {}\n", opened.report.world);

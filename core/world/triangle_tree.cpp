@@ -59,14 +59,4 @@ double TriangleTree::distance(const Vec3& x) const
     return std::sqrt(tree_->cgal.squared_distance(point(x)));
 }
 
-bool TriangleTree::is_inside(const Vec3& x) const
-{
-    int inside = 0;
-    for (const auto& [dx, dy, dz] : {std::array{0.31, 0.47, 0.83}, {-0.73, 0.59, -0.35}, {0.13, -0.89, -0.43}}) {
-        const Kernel::Ray_3 ray(point(x), Kernel::Vector_3(dx, dy, dz));
-        inside += tree_->cgal.number_of_intersected_primitives(ray) % 2 == 1 ? 1 : 0;
-    }
-    return inside > 1;
-}
-
 } // namespace talus

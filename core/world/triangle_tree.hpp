@@ -26,10 +26,6 @@ public:
     /// Of x from the nearest triangle [m].
     double distance(const Vec3& x) const;
 
-    /// Whether x lies on the inner side of triangles that leave no hole: most of three rays leave through an odd number
-    /// of them. (One ray alone may meet an edge, where rounding counts two triangles or none.)
-    bool is_inside(const Vec3& x) const;
-
 private:
     struct Tree;
     std::unique_ptr<const Tree> tree_;

@@ -48,15 +48,17 @@ void check_names(const scene::Scene& scene)
 OutputChoice build_output(const scene::OutputTable& table)
 {
     OutputChoice choice{table.particle_arrays, table.contact_arrays, table.contact_threshold, {}};
-    if (table.region.shape != "everything") choice.region = require_region(table.region, "output.region");
+    const bool known_later = table.region.shape == "mesh"; // what it encloses depends on the size of the spheres
+    if (table.region.shape != "everything" && !known_later)
+        choice.region = require_region(table.region, 0.0, "output.region");
     return choice;
 }
 
-std::vector<Region> build_outlets(const scene::Scene& scene)
+std::vector<Region> build_outlets(const scene::Scene& scene, double diameter)
 {
     std::vector<Region> outlets;
     for (std::size_t k = 0; k < scene.outlet.size(); ++k)
-        outlets.push_back(require_region(scene.outlet[k].region, key_path("outlet", k, "region")));
+        outlets.push_back(require_region(scene.outlet[k].region, diameter, key_path("outlet", k, "region")));
     return outlets;
 }
 
@@ -78,7 +80,7 @@ Model build_model(const scene::Scene& scene, const Materials& materials, const s
     if (model.physics.rolling && !scene.world.rotation)
         throw SceneError("world.rotation", "spheres that do not turn have no rolling resistance: leave out "
                                            "'rolling_friction', or let them turn");
-    model.outlets = build_outlets(scene);
+    model.outlets = build_outlets(scene, model.mean_diameter);
     model.world = build_world(scene, model, fills, pours);
     model.contents = build_contents(model, fills, pours);
     require_inside_world(fills, pours, model.world);
@@ -105,6 +107,8 @@ BuiltScene build_scene(const scene::Scene& scene)
     simulation.pours = build_pours(scene, materials);
     model = build_model(scene, materials, fills, simulation.pours);
     simulation.sensors = build_sensors(scene, model);
+    if (scene.output.region.shape == "mesh")
+        output.region = require_region(scene.output.region, model.mean_diameter, "output.region");
 
     // Spheres take their places among the walls. One generator gives all fills theirs, and then each pour its seed.
     Random random(static_cast<std::uint64_t>(scene.seed));

@@ -2,6 +2,7 @@
 #include "scenarios/builder/checks.hpp"
 
 #include "core/world/closed_mesh.hpp"
+#include "scenarios/builder/meshes.hpp"
 
 #include <cmath>
 
@@ -51,7 +52,7 @@ Box require_box(const Vec3& min, const Vec3& max, const std::string& key)
     return {min, max};
 }
 
-Region require_region(const scene::RegionTable& table, const std::string& key)
+Region require_region(const scene::RegionTable& table, double diameter, const std::string& key)
 {
     Region region;
     if (table.shape == "box") {
@@ -61,10 +62,9 @@ Region require_region(const scene::RegionTable& table, const std::string& key)
     if (table.shape == "mesh") {
         const Mesh mesh = make_mesh(table.vertices, table.triangles);
         if (mesh.triangles.empty()) throw SceneError(key + ".mesh", "a region needs an STL file with triangles");
-        if (const auto open = open_edges(mesh); open > 0)
-            throw SceneError(key + ".mesh", "nothing is inside of '" + table.mesh + "': " + std::to_string(open) +
-                                                " of its edges have one triangle only");
-        return *inside_of(mesh);
+        if (auto inside = inside_of(mesh, same_corner * diameter)) return *inside;
+        throw SceneError(
+            key + ".mesh", "nothing is inside of '" + table.mesh + "': it has " + holes_in_words(mesh, diameter));
     }
     if (table.shape == "sphere") {
         require_positive(table.radius, key + ".radius", "the radius of a sphere");

@@ -53,7 +53,8 @@ Box require_layer(const Vec3& min, const Vec3& max, const std::string& key);
 /// The box between two corners. @throws SceneError where it is empty
 Box require_box(const Vec3& min, const Vec3& max, const std::string& key);
 
-/// The region that a table describes. @param key its path; @throws SceneError where it is empty
-Region require_region(const scene::RegionTable& table, const std::string& key);
+/// The region that a table describes. @param diameter of the spheres, on average [m]; @param key its path
+/// @throws SceneError where it is empty, or a mesh has a hole
+Region require_region(const scene::RegionTable& table, double diameter, const std::string& key);
 
 } // namespace talus

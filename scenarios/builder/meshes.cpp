@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/builder/meshes.hpp"
 
+#include "core/world/closed_mesh.hpp"
 #include "scenarios/builder/world.hpp"
 #include "scenarios/scene_error.hpp"
 
@@ -36,6 +37,18 @@ Mesh build_mesh(const scene::WallTable& table, double diameter, const std::strin
     Mesh mesh = make_mesh(table.vertices, table.triangles);
     if (mesh.triangles.empty()) throw SceneError(key, "no triangle of '" + table.mesh + "' has an area");
     return mesh;
+}
+
+std::string holes_in_words(const Mesh& mesh, double diameter)
+{
+    const std::vector<Hole> holes = ClosedMesh(mesh, same_corner * diameter).holes();
+    if (holes.empty()) return "";
+    const Hole& longest = *std::ranges::max_element(holes, {}, &Hole::length);
+    char text[160];
+    std::snprintf(text, sizeof text, "%zu edges of one triangle only, %.3g m in all, round (%.4g, %.4g, %.4g)",
+        longest.edges, longest.length, longest.place.x(), longest.place.y(), longest.place.z());
+    if (holes.size() == 1) return std::string("a hole of ") + text;
+    return std::to_string(holes.size()) + " holes, the longest of " + text;
 }
 
 std::string left_out_of_mesh(const scene::WallTable& table)

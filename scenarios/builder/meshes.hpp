@@ -14,6 +14,9 @@ namespace talus
 /// @throws SceneError where none has, or a vertex lies too far from the origin
 Mesh build_mesh(const scene::WallTable& table, double diameter, const std::string& key);
 
+/// Where a mesh is open; empty where it is closed. @param diameter of the spheres, on average [m]
+std::string holes_in_words(const Mesh& mesh, double diameter);
+
 /// What a wall's STL file has that its mesh has not; empty where that is nothing.
 std::string left_out_of_mesh(const scene::WallTable& table);
 

@@ -99,7 +99,7 @@ PackingRoom::PackingRoom(const Region& region, std::vector<Region> except, const
     : region_(region), model_(model), except_(std::move(except)), walls_(place_walls_at_start(model))
 {
     for (const PlacedWall& wall : walls_) {
-        auto inside = wall.stands() ? inside_of(wall.wall().shape) : std::nullopt;
+        auto inside = wall.stands() ? inside_of(wall.wall().shape, same_corner * model.mean_diameter) : std::nullopt;
         if (inside) closed_.push_back({std::move(*inside), wall.pose().inverse(), false});
     }
     const Box bounds = region.bounds();

@@ -25,6 +25,7 @@ namespace
 struct Entry {
     const scene::SensorTable& table;
     std::size_t index;
+    double diameter; ///< of the spheres, on average [m]
 
     std::string key(const char* name) const { return key_path("sensor", index, name); }
 };
@@ -64,7 +65,7 @@ std::unique_ptr<Sensor> build_slope(const Entry& entry)
 
 std::unique_ptr<Sensor> build_region_average(const Entry& entry)
 {
-    const Region region = require_region(entry.table.region, entry.key("region"));
+    const Region region = require_region(entry.table.region, entry.diameter, entry.key("region"));
     return std::make_unique<RegionAverage>(entry.table.name, region, build_window(entry));
 }
 
@@ -86,7 +87,7 @@ std::unique_ptr<Sensor> build_profile(const Entry& entry)
     static const std::map<std::string, Direction> directions = {{"x", Direction::x}, {"y", Direction::y},
         {"z", Direction::z}, {"axial", Direction::axial}, {"radial", Direction::radial}};
     require_file_name(entry);
-    const Region region = require_region(entry.table.region, entry.key("region"));
+    const Region region = require_region(entry.table.region, entry.diameter, entry.key("region"));
     const Direction direction = directions.at(entry.table.direction);
     if ((region.shape == Region::Shape::box) != (direction < Direction::axial))
         throw SceneError(entry.key("direction"), "a box is cut along 'x', 'y' or 'z', a cylinder 'axial' or 'radial'");
@@ -125,7 +126,8 @@ std::unique_ptr<Sensor> build_sensor(const Entry& entry, const Model& model)
 std::vector<std::unique_ptr<Sensor>> build_sensors(const scene::Scene& scene, const Model& model)
 {
     std::vector<std::unique_ptr<Sensor>> sensors;
-    for (std::size_t k = 0; k < scene.sensor.size(); ++k) sensors.push_back(build_sensor({scene.sensor[k], k}, model));
+    for (std::size_t k = 0; k < scene.sensor.size(); ++k)
+        sensors.push_back(build_sensor({scene.sensor[k], k, model.mean_diameter}, model));
     return sensors;
 }
 

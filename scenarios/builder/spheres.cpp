@@ -176,7 +176,7 @@ Pour build_pour(const scene::PourTable& table, std::size_t index, const Material
     constexpr double most = 1e8; // as for a count
     if (!(expected_count(pour, materials) <= most))
         throw SceneError(key + ".mass", "this mass is that of more than 100 million spheres");
-    pour.region = require_region(table.region, key + ".region");
+    pour.region = require_region(table.region, pour.mixture.mean_diameter(), key + ".region");
     pour.velocity = table.velocity;
     pour.start = table.start;
     return pour;
@@ -272,9 +272,10 @@ std::vector<Fill> build_fills(const scene::Scene& scene, const Materials& materi
             fill.listed = {single_sphere(fill.table, fill.key, materials)};
         } else {
             fill.mixture = build_mixture(fill.table, fill.key, materials);
-            fill.region = require_region(fill.table.region, fill.key + ".region");
+            const double d = fill.mixture.mean_diameter();
+            fill.region = require_region(fill.table.region, d, fill.key + ".region");
             for (std::size_t i = 0; i < fill.table.except.size(); ++i)
-                fill.except.push_back(require_region(fill.table.except[i], table_path(fill.key + ".except", i)));
+                fill.except.push_back(require_region(fill.table.except[i], d, table_path(fill.key + ".except", i)));
             fill.count = count_of(fill, materials);
         }
         fills.push_back(std::move(fill));

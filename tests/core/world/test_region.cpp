@@ -17,7 +17,7 @@ Region any_region()
     const Vec3 axis = Vec3(1, 2, 2) / 3.0, place(0.3, -0.2, 0.1);
     return GENERATE_COPY(box(place, Vec3(1.0, 1.5, 0.7)), cylinder(place, axis, 0.8, 0.6),
         cone(place, axis, 1.0, 0.3, 0.8), cone(place, axis, 0.0, 0.9, 1.3), sphere(place, 0.9),
-        *inside_of(box_mesh({place, Vec3(1.0, 1.5, 0.7)})), *inside_of(l_mesh()));
+        *inside_of(box_mesh({place, Vec3(1.0, 1.5, 0.7)}), 0.0), *inside_of(l_mesh(), 0.0));
 }
 
 /// A place in the box, drawn evenly.
@@ -112,8 +112,69 @@ TEST_CASE("only what is closed has an inside", "[region]")
 {
     Mesh open = box_mesh({Vec3::Zero(), Vec3::Ones()});
     open.triangles.pop_back();
-    CHECK_FALSE(inside_of(make_mesh(open.vertices, open.triangles)));
-    CHECK_FALSE(inside_of(box_panels({Vec3::Zero(), Vec3::Ones()}, {"z+"})));
-    CHECK(inside_of(box_panels({Vec3::Zero(), Vec3::Ones()}, {}))->volume() == Approx(1.0));
-    CHECK_FALSE(inside_of(Plane{}));
+    CHECK_FALSE(inside_of(make_mesh(open.vertices, open.triangles), 0.0));
+    CHECK_FALSE(inside_of(box_panels({Vec3::Zero(), Vec3::Ones()}, {"z+"}), 0.0));
+    CHECK(inside_of(box_panels({Vec3::Zero(), Vec3::Ones()}, {}), 0.0)->volume() == Approx(1.0));
+    CHECK_FALSE(inside_of(Plane{}, 0.0));
+}
+
+TEST_CASE("a mesh is closed where its corners agree, whatever way its triangles turn", "[region]")
+{
+    constexpr double weld = 1e-6;
+    const auto seed = GENERATE(range(1, 30));
+    INFO("seed " << seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    const Mesh whole = seed % 2 ? box_mesh({Vec3::Zero(), Vec3(1.0, 1.5, 0.7)}) : l_mesh();
+    const auto inside = inside_of(whole, 0.0);
+    // Every triangle gets corners of its own, some off by almost all that is allowed.
+    const double off = seed % 3 ? 0.49 * weld : 1e-17;
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(uniform(random), Vec3(1, 2, 3).normalized()));
+    std::vector<Vec3> corners;
+    std::vector<std::array<std::int32_t, 3>> triangles;
+    for (const auto& t : whole.triangles) {
+        const auto first = static_cast<std::int32_t>(corners.size());
+        for (const auto corner : t) {
+            Vec3 away(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5);
+            corners.push_back(turn * whole.vertices[corner] + off * away.normalized());
+        }
+        triangles.push_back({first, first + 1, first + 2});
+        if (uniform(random) < 0.5) std::swap(triangles.back()[0], triangles.back()[1]);
+    }
+    const auto welded = inside_of(make_mesh(corners, triangles), weld);
+    REQUIRE(welded);
+    CHECK(welded->volume() == Approx(inside->volume()).epsilon(1e-5));
+    for (int k = 0; k < 200; ++k) {
+        const Vec3 x = place_in(inside->bounds().grown(0.3), random);
+        CHECK(welded->depth(turn * x) == Approx(inside->depth(x)).margin(2 * weld));
+    }
+    // Corners that are further apart leave it open.
+    if (seed % 3) CHECK_FALSE(inside_of(make_mesh(corners, triangles), 1e-3 * weld));
+}
+
+TEST_CASE("a hole of a mesh has a place and a length", "[region]")
+{
+    Mesh open = box_mesh({Vec3::Zero(), Vec3(1.0, 1.5, 0.7)});
+    const auto gone = open.triangles.back();
+    open.triangles.pop_back();
+    const std::vector<Hole> holes = ClosedMesh(make_mesh(open.vertices, open.triangles), 0.0).holes();
+    REQUIRE(holes.size() == 1);
+    CHECK(holes[0].edges == 3);
+    const Vec3 &a = open.vertices[gone[0]], &b = open.vertices[gone[1]], &c = open.vertices[gone[2]];
+    CHECK((holes[0].place - (a + b + c) / 3.0).norm() < 1e-12);
+    CHECK(holes[0].length == Approx((a - b).norm() + (b - c).norm() + (c - a).norm()));
+}
+
+TEST_CASE("a shell within a shell encloses what is between them", "[region]")
+{
+    const Mesh outer = box_mesh({Vec3::Zero(), Vec3(3, 3, 3)}), inner = box_mesh({Vec3::Ones(), Vec3(2, 2, 2)});
+    std::vector<Vec3> corners = outer.vertices;
+    auto triangles = outer.triangles;
+    for (const auto& t : inner.triangles) triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+    corners.insert(corners.end(), inner.vertices.begin(), inner.vertices.end());
+    REQUIRE(outer.vertices.size() == 8);
+    const auto between = inside_of(make_mesh(corners, triangles), 0.0);
+    REQUIRE(between);
+    CHECK(between->volume() == Approx(26.0));
+    CHECK(between->depth(Vec3(1.5, 1.5, 1.5)) == Approx(-0.5));
+    CHECK(between->depth(Vec3(0.5, 1.5, 1.5)) == Approx(0.5));
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/world/closed_mesh.hpp"
 #include "scenarios/builder/build_scene.hpp"
 #include "scenarios/builder/meshes.hpp"
 #include "tests/scenarios/small_scene.hpp"
@@ -50,12 +49,13 @@ TEST_CASE("a triangle beyond all sense is refused with its file and number", "[m
     CHECK_THROWS_WITH(build_scene(scene), Contains("triangle 3 of 'cup.stl' reaches more than 1e9 diameters"));
 }
 
-TEST_CASE("edges with one triangle only are counted", "[meshes]")
+TEST_CASE("a mesh that is open says where", "[meshes]")
 {
     auto table = tetrahedron();
-    CHECK(open_edges(build_mesh(table, 0.01, "")) == 0);
+    CHECK(holes_in_words(build_mesh(table, 0.01, ""), 0.01).empty());
     table.triangles.pop_back();
-    CHECK(open_edges(build_mesh(table, 0.01, "")) == 3);
+    CHECK(holes_in_words(build_mesh(table, 0.01, ""), 0.01) ==
+          "a hole of 3 edges of one triangle only, 4.24 m in all, round (0.3333, 0.3333, 0.3333)");
 }
 
 TEST_CASE("a mesh of more than a thousand diameters is warned of", "[meshes]")
