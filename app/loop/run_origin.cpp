@@ -33,14 +33,6 @@ bool is_among(const auto& names, const std::string& key)
     return std::ranges::any_of(names, [&](std::string_view one) { return one == key || one == table; });
 }
 
-void refuse_other_files(const std::vector<NamedFile>& files, const RunOrigin& origin)
-{
-    for (std::size_t k = 0; k < files.size(); ++k)
-        if (files[k].sum != origin.files.at(k))
-            throw InputError(fmt::format(
-                "{}: the file has changed since the run began; it goes on only with the old one", files[k].path));
-}
-
 } // namespace
 
 RunOrigin origin_of(const std::string& scene_name, const scene::Scene& scene)
@@ -58,17 +50,19 @@ void refuse_other_scene(const SceneFile& file, const RunOrigin& origin)
         if (!is_among(changeable, key))
             throw InputError(fmt::format("{}: '{}' may not change when a run is resumed; what may is {}",
                 file.place_of(key), key, fmt::join(changeable, ", ")));
-    refuse_other_files(files, origin);
+    for (std::size_t k = 0; k < files.size(); ++k)
+        if (files[k].sum != origin.files.at(k))
+            throw InputError(fmt::format(
+                "{}: the file has changed since the run began; it goes on only with the old one", files[k].path));
 }
 
-void refuse_other_state(const scene::Scene& scene, const RunOrigin& origin)
+void refuse_other_state(const RunOrigin& own, const RunOrigin& origin)
 {
-    const auto files = named_files(scene);
-    for (const std::string& key : changed_keys(parse_scene(origin.scene), with_copies(scene, files)))
+    for (const std::string& key : changed_keys(parse_scene(origin.scene), parse_scene(own.scene)))
         if (!is_among(changeable, key) && !is_among(settings, key))
             throw InputError(fmt::format("the state is of another scene: '{}' differs; what may is {}, {}", key,
                 fmt::join(changeable, ", "), fmt::join(settings, ", ")));
-    refuse_other_files(files, origin);
+    if (own.files != origin.files) throw InputError("the state is of a scene with other contents of its files");
 }
 
 } // namespace talus

@@ -29,7 +29,7 @@ void refuse_other_scene(const SceneFile& file, const RunOrigin& origin);
 
 /// The same where a state is put into a simulation of a scene, perhaps under another setting: what spheres and walls
 /// there are must not change, since the state has them.
-/// @throws InputError
-void refuse_other_state(const scene::Scene& scene, const RunOrigin& origin);
+/// @param own of the simulation; @param origin of the state; @throws InputError
+void refuse_other_state(const RunOrigin& own, const RunOrigin& origin);
 
 } // namespace talus

@@ -90,8 +90,8 @@ std::shared_ptr<Session> open_again(SceneFile file, const RunOrigin& origin, int
 } // namespace
 
 Session::Session(OpenedScene opened, int threads)
-    : opened_(std::move(opened)), threads_(threads_or_usual(threads)), samples_(opened_.scene.time.metrics_interval),
-      warnings_(opened_.report.warnings)
+    : opened_(std::move(opened)), origin_(origin_of(opened_.name, opened_.scene)), threads_(threads_or_usual(threads)),
+      samples_(opened_.scene.time.metrics_interval), warnings_(opened_.report.warnings)
 {
     opened_.simulation.model.physics.wall_loads = true; // wall().force has them, whatever sensors ask for
 }
@@ -226,7 +226,7 @@ void Session::save(const fs::path& file)
         throw OutputError(file.string() + ": is no checkpoint, and is not overwritten");
     Simulation& simulation = now();
     remove_escaped(simulation.escaped, simulation.state, simulation.network, report().bodies.incidents);
-    RunOrigin origin = origin_of(opened_.name, opened_.scene);
+    RunOrigin origin = origin_;
     origin.scene = resolved_scene(opened_.scene); // with the files where they are: no copies come with it
     Archive archive;
     archive(origin);
@@ -238,8 +238,7 @@ void Session::save(const fs::path& file)
 std::string Session::state()
 {
     Archive archive;
-    RunOrigin origin = origin_of(opened_.name, opened_.scene);
-    archive(origin);
+    archive(origin_);
     now().persist_without_sensors(archive);
     return checkpoint_bytes(TALUS_VERSION, archive.bytes());
 }
@@ -249,7 +248,7 @@ void Session::restore(const std::string& state)
     Archive archive(state_in(state, TALUS_VERSION));
     RunOrigin origin;
     archive(origin);
-    refuse_other_state(opened_.scene, origin);
+    refuse_other_state(origin_, origin);
     Simulation& simulation = change();
     simulation.persist_without_sensors(archive);
     const double h = simulation.model.time_step;

@@ -83,6 +83,7 @@ public:
 
 private:
     OpenedScene opened_;
+    RunOrigin origin_; ///< with the files as they were when the scene was read
     int threads_;
     std::unique_ptr<FolderLock> lock_;
     std::unique_ptr<RunLoop> loop_; ///< where there is a folder; else these do what is needed of it:

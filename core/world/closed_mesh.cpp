@@ -80,11 +80,15 @@ SurfaceMesh surface_of(const Mesh& mesh, double weld)
 } // namespace
 
 struct ClosedMesh::Surface {
-    Mesh mesh;
+    std::shared_ptr<const TriangleTree> tree;
+    Box bounds;
     SurfaceMesh welded;
     Side side;
 
-    Surface(const Mesh& given, double weld) : mesh(given), welded(surface_of(given, weld)), side(welded) {}
+    Surface(const Mesh& given, double weld)
+        : tree(given.tree), bounds(talus::bounds(Shape(given))), welded(surface_of(given, weld)), side(welded)
+    {
+    }
 };
 
 ClosedMesh::ClosedMesh(const Mesh& mesh, double weld) : surface_(std::make_unique<Surface>(mesh, weld)) {}
@@ -112,13 +116,13 @@ std::vector<Hole> ClosedMesh::holes() const
 
 double ClosedMesh::depth(const Vec3& x) const
 {
-    const double distance = surface_->mesh.tree->distance(x);
+    const double distance = surface_->tree->distance(x);
     return surface_->side(point(x)) == CGAL::ON_UNBOUNDED_SIDE ? -distance : distance;
 }
 
 Box ClosedMesh::bounds() const
 {
-    return talus::bounds(Shape(surface_->mesh));
+    return surface_->bounds;
 }
 
 double ClosedMesh::volume() const
