@@ -14,24 +14,59 @@ namespace talus
 namespace
 {
 
-constexpr std::size_t sectors = 16;
 constexpr std::size_t octants = 8;
-constexpr double empty_sector = -infinity;
+constexpr double rings_per_diameter = 2.0;
+constexpr double cells_per_diameter = 4.0;
+constexpr double most_cells_across = 1024.0; ///< of the grid; of larger heaps it has larger cells
 
-/// The highest sphere top in each ring and sector, as heights above the base.
-struct Surface {
-    double ring_width = 0.0;
-    std::vector<std::array<double, sectors>> top; ///< by ring; `empty_sector` where there is no sphere
-
-    /// Mean height of some sectors of a ring; not a number where all are empty.
-    double ring_mean(std::size_t ring, std::size_t first_sector, std::size_t count) const
+/// What every cell of a square grid round the axis holds of a heap's surface.
+class Surface
+{
+public:
+    /// @param base centre of the floor [m]; @param up unit; @param foot how far the heap reaches [m]
+    Surface(const Vec3& base, const Vec3& up, double diameter, double foot)
+        : base_(base), up_(up), e1_(any_perpendicular(up)), e2_(up.cross(e1_)), diameter_(diameter),
+          half_(foot + diameter), cell_(std::max(diameter / cells_per_diameter, 2.0 * half_ / most_cells_across)),
+          cells_(static_cast<Eigen::Index>(std::ceil(2.0 * half_ / cell_))),
+          height_(Eigen::ArrayXXd::Zero(cells_, cells_))
     {
-        MeanAndError mean;
-        for (std::size_t s = first_sector; s < first_sector + count; ++s) mean.add(top[ring][s]);
-        return mean.mean();
     }
 
-    double radius(std::size_t ring) const { return (static_cast<double>(ring) + 0.5) * ring_width; }
+    /// Raises the surface to where a grain of the mean diameter that is let down meets this sphere.
+    void add(const Vec3& position, double radius)
+    {
+        const Vec3 x = position - base_;
+        const double across = x.dot(e1_), along = x.dot(e2_), reach = radius + 0.5 * diameter_;
+        const double top = x.dot(up_) - 0.5 * diameter_;
+        if (top + reach <= 0.0) return; // it has fallen off
+        const auto cell = [&](double place) {
+            return std::clamp<Eigen::Index>(
+                static_cast<Eigen::Index>((std::clamp(place, -half_, half_) + half_) / cell_), 0, cells_ - 1);
+        };
+        for (Eigen::Index i = cell(across - reach); i <= cell(across + reach); ++i)
+            for (Eigen::Index j = cell(along - reach); j <= cell(along + reach); ++j) {
+                const double square = reach * reach - std::pow(place(i) - across, 2) - std::pow(place(j) - along, 2);
+                if (square > 0.0) height_(i, j) = std::max(height_(i, j), top + std::sqrt(square));
+            }
+    }
+
+    /// Calls use(distance from the axis, azimuth in [0, 1], height above the base) for every cell.
+    template <typename Use> void for_each_cell(Use&& use) const
+    {
+        for (Eigen::Index j = 0; j < cells_; ++j)
+            for (Eigen::Index i = 0; i < cells_; ++i) {
+                const double turn = std::atan2(place(j), place(i)) / (2.0 * std::numbers::pi) + 0.5;
+                use(std::hypot(place(i), place(j)), turn, height_(i, j));
+            }
+    }
+
+private:
+    Vec3 base_, up_, e1_, e2_;
+    double diameter_, half_, cell_;
+    Eigen::Index cells_;
+    Eigen::ArrayXXd height_;
+
+    double place(Eigen::Index k) const { return (static_cast<double>(k) + 0.5) * cell_ - half_; }
 };
 
 /// Faster than anything that lies.
@@ -50,39 +85,16 @@ double moving_share(const State& state, double fast)
     return all > 0.0 ? moving / all : 0.0;
 }
 
-/// @param fast spheres above this speed are left out [m/s]
-Surface find_surface(const State& state, const Vec3& base, const Vec3& up, double ring_width, double fast)
-{
-    Surface surface{ring_width, {}};
-    const Vec3 e1 = any_perpendicular(up);
-    const Vec3 e2 = up.cross(e1);
-    for (std::size_t i = 0; i < state.count(); ++i) {
-        if (state.body(i).velocity.norm() > fast) continue;
-        const Vec3 x = state.position[i] - base;
-        const double height = x.dot(up) + state.radius[i];
-        const double out = (x - x.dot(up) * up).norm();
-        const auto ring = static_cast<std::size_t>(out / ring_width);
-        const double turn = std::atan2(x.dot(e2), x.dot(e1)) / (2.0 * std::numbers::pi) + 0.5;
-        const auto sector = std::min(sectors - 1, static_cast<std::size_t>(turn * static_cast<double>(sectors)));
-        if (height <= 0.0 || ring > 100000) continue; // spheres that have fallen off, or fly far away
-        if (ring >= surface.top.size()) {
-            std::array<double, sectors> empty;
-            empty.fill(empty_sector);
-            surface.top.resize(ring + 1, empty);
-        }
-        surface.top[ring][sector] = std::max(surface.top[ring][sector], height);
-    }
-    return surface;
-}
-
-/// The distance from the axis within which 99 % of the mass lies [m].
+/// The distance from the axis within which 99 % of the mass lies that has not fallen below the base [m].
 double find_foot(const State& state, const Vec3& base, const Vec3& up)
 {
     std::vector<std::pair<double, double>> mass_at; // distance, mass
     double mass = 0.0;
     for (std::size_t i = 0; i < state.count(); ++i) {
         const Vec3 x = state.position[i] - base;
-        mass_at.emplace_back((x - x.dot(up) * up).norm(), state.mass(i));
+        const double height = x.dot(up);
+        if (height + state.radius[i] <= 0.0) continue;
+        mass_at.emplace_back((x - height * up).norm(), state.mass(i));
         mass += state.mass(i);
     }
     std::sort(mass_at.begin(), mass_at.end());
@@ -92,23 +104,18 @@ double find_foot(const State& state, const Vec3& base, const Vec3& up)
     return 0.0;
 }
 
-struct Flank {
-    double angle;       ///< [degree]
-    std::int64_t rings; ///< that have spheres in these sectors
-};
-
-/// The line through the ring means between two radii, over some sectors.
-Flank fit_flank(const Surface& surface, double inner, double outer, std::size_t first_sector, std::size_t count)
+/// Mean heights of rings half a diameter wide, from the axis on.
+std::vector<double> ring_means(const Surface& surface, double ring_width)
 {
-    LineFit line;
-    std::int64_t rings = 0;
-    for (std::size_t ring = 0; ring < surface.top.size(); ++ring) {
-        const double mean = surface.ring_mean(ring, first_sector, count);
-        if (surface.radius(ring) < inner || surface.radius(ring) > outer || !std::isfinite(mean)) continue;
-        line.add(surface.radius(ring), mean);
-        ++rings;
-    }
-    return {line.fall_angle(), rings};
+    std::vector<MeanAndError> rings;
+    surface.for_each_cell([&](double out, double, double height) {
+        const auto ring = static_cast<std::size_t>(out / ring_width);
+        if (ring >= rings.size()) rings.resize(ring + 1);
+        rings[ring].add(height);
+    });
+    std::vector<double> means;
+    for (const MeanAndError& ring : rings) means.push_back(ring.count() > 0 ? ring.mean() : 0.0);
+    return means;
 }
 
 } // namespace
@@ -121,33 +128,42 @@ Repose::Repose(std::string sensor_name, const Vec3& base, double inner_radius, d
 void Repose::sample(const Snapshot& now)
 {
     const Vec3 up = -now.model.gravity.normalized();
-    const double fast = moving_speed(now.model);
-    const auto surface = find_surface(now.state, base_, up, now.model.mean_diameter, fast);
+    const double fast = moving_speed(now.model), diameter = now.model.mean_diameter;
     moving_ = moving_share(now.state, fast);
     foot_ = find_foot(now.state, base_, up);
-    apex_ = 0.0;
-    for (std::size_t ring = 0; ring < surface.top.size(); ++ring) {
-        const double mean = surface.ring_mean(ring, 0, sectors);
-        if (std::isfinite(mean)) apex_ = std::max(apex_, mean);
-    }
+    Surface surface(base_, up, diameter, foot_);
+    for (std::size_t i = 0; i < now.state.count(); ++i)
+        if (now.state.body(i).velocity.norm() <= fast) surface.add(now.state.position[i], now.state.radius[i]);
+
+    const double ring_width = diameter / rings_per_diameter;
+    const std::vector<double> means = ring_means(surface, ring_width);
+    apex_ = *std::max_element(means.begin(), means.end());
     double inner = inner_radius_, outer = outer_radius_;
     if (outer == 0.0) {
-        // From the last ring above 80 % of the height to the first below 20 %.
+        // From the last ring above 80 % of the height to the first below 20 %, or to where single grains lie.
+        const double thin = std::max(0.2 * apex_, 1.5 * diameter);
         inner = 0.0;
         outer = infinity;
-        for (std::size_t ring = 0; ring < surface.top.size(); ++ring) {
-            const double mean = surface.ring_mean(ring, 0, sectors);
-            if (mean > 0.8 * apex_) inner = surface.radius(ring);
-            if (mean < 0.2 * apex_) outer = std::min(outer, surface.radius(ring));
+        for (std::size_t ring = 0; ring < means.size(); ++ring) {
+            const double radius = (static_cast<double>(ring) + 0.5) * ring_width;
+            if (means[ring] > 0.8 * apex_) inner = radius;
+            if (means[ring] < thin) outer = std::min(outer, radius);
         }
     }
-    height_ = apex_ / now.model.mean_diameter;
-    const Flank flank = fit_flank(surface, inner, outer, 0, sectors);
-    angle_ = flank.angle;
-    rings_ = flank.rings;
+    outer = std::min(outer, foot_);
+    height_ = apex_ / diameter;
+    width_ = std::max(0.0, outer - inner) / diameter;
+
+    LineFit flank;
+    std::array<LineFit, octants> sides;
+    surface.for_each_cell([&](double out, double turn, double height) {
+        if (out < inner || out > outer || height <= 0.0) return; // there is nothing but floor, or not even that
+        flank.add(out, height);
+        sides[std::min(octants - 1, static_cast<std::size_t>(turn * octants))].add(out, height);
+    });
+    angle_ = flank.fall_angle();
     MeanAndError angles;
-    constexpr std::size_t width = sectors / octants;
-    for (std::size_t k = 0; k < octants; ++k) angles.add(fit_flank(surface, inner, outer, k * width, width).angle);
+    for (const LineFit& side : sides) angles.add(side.fall_angle());
     spread_ = angles.standard_error();
 }
 
@@ -170,7 +186,7 @@ std::string Repose::silence() const
     else if (height_ < least_height)
         std::snprintf(text, sizeof text, "no heap: it is %.2g diameters high", height_);
     else
-        std::snprintf(text, sizeof text, "no heap: its flank is %d diameters wide", static_cast<int>(rings_));
+        std::snprintf(text, sizeof text, "no heap: its flank is %.2g diameters wide", width_);
     return text;
 }
 

@@ -126,7 +126,7 @@ export class RunView {
       this.charts.addPlain({
         title: `Profile of ${sensor.name}`, unit: "m", across: isHeap ? "distance from the axis [m]" : "along [m]",
         curves: [{ label: "surface", dots: true }, { label: "fit" }],
-        note: isHeap ? "Means of the highest grains in rings a diameter wide; the line is fitted between 20 and 80 % of the height." : "Means of the highest grains in strips a diameter wide, with the line through them.",
+        note: isHeap ? "Where a grain that is let down meets the heap, means of rings; the line is the sensor's." : "Means of the highest grains in strips a diameter wide, with the line through them.",
         make: keep((k, recording) => {
           const { places, heights, line } = (isHeap ? heapProfile : slopeProfile)(recording, k, sensor);
           return [places, heights, line];

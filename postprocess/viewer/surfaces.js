@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is found in the grains of one frame: the profile of a heap or slope, the packing over height.
 
-const SECTORS = 16;
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 
@@ -25,52 +24,81 @@ function mean(values) {
   return values.reduce((sum, one) => sum + one, 0) / values.length;
 }
 
-/** The line through points, as values at their places; null where there is none. */
+/** The slope of the line through points, and its value at a place; not a number where there are too few. */
 function fitted(places, values, within) {
-  const chosen = places.map((x, n) => [x, values[n]]).filter(([x, y]) => y !== null && within(x));
-  if (chosen.length < 3) return { slope: NaN, line: places.map(() => null) };
+  const chosen = places.map((x, n) => [x, values[n]]).filter(([x]) => within(x));
+  if (chosen.length < 3) return { slope: NaN, at: () => null };
   const [mx, my] = [mean(chosen.map(([x]) => x)), mean(chosen.map(([, y]) => y))];
   const slope = chosen.reduce((sum, [x, y]) => sum + (x - mx) * (y - my), 0) / chosen.reduce((sum, [x]) => sum + (x - mx) ** 2, 0);
-  return { slope, line: places.map((x) => (within(x) ? my + slope * (x - mx) : null)) };
+  return { slope, at: (x) => my + slope * (x - mx) };
 }
 
-/** Heights of the surface of a heap over the distance from its axis, as the sensor `repose` finds them, with its line. */
+/** Mean heights of rings half a diameter wide, and the line through the flank, as the sensor `repose` finds them
+ * (core/sensors/repose.hpp): the surface is where a grain that is let down meets the heap. */
 export function heapProfile(recording, k, sensor) {
   const { up, meanRadius } = recording;
-  const width = 2 * meanRadius;
+  const diameter = 2 * meanRadius;
   const base = sensor.base ?? [0, 0, 0];
   const e1 = acrossTo(up);
   const e2 = cross(up, e1);
-  const gravity = Math.hypot(...recording.data.gravity);
-  const fast = 0.3 * Math.sqrt(gravity * width);
+  const fast = 0.3 * Math.sqrt(Math.hypot(...recording.data.gravity) * diameter);
   const speeds = recording.speeds(k);
-  const tops = [];
+  const grains = [];
   forGrains(recording, k, (place, slot, i) => {
     if (!(speeds[i] <= fast) && recording.length > 1) return; // nor what just came in, whose speed is not known
     const x = place.map((one, axis) => one - base[axis]);
-    const height = dot(x, up) + recording.radii[slot];
-    const [across, along] = [dot(x, e1), dot(x, e2)];
-    const ring = Math.floor(Math.hypot(across, along) / width);
-    if (height <= 0 || ring > 10000) return;
-    const sector = Math.min(SECTORS - 1, Math.floor((Math.atan2(along, across) / (2 * Math.PI) + 0.5) * SECTORS));
-    tops[ring] ??= new Array(SECTORS).fill(-Infinity);
-    tops[ring][sector] = Math.max(tops[ring][sector], height);
+    const radius = recording.radii[slot];
+    if (dot(x, up) + radius > 0) grains.push({ across: dot(x, e1), along: dot(x, e2), height: dot(x, up), radius });
   });
-  const places = Array.from(tops, (_, ring) => (ring + 0.5) * width);
-  const heights = Array.from(tops, (sectors) => {
-    const found = (sectors ?? []).filter(Number.isFinite);
-    return found.length ? mean(found) : null;
-  });
-  const apex = Math.max(0, ...heights.filter((one) => one !== null));
-  let inner = 0;
-  let outer = Infinity;
-  places.forEach((x, ring) => {
-    if (heights[ring] === null) return;
-    if (heights[ring] > 0.8 * apex) inner = x;
-    if (heights[ring] < 0.2 * apex) outer = Math.min(outer, x);
-  });
-  const { slope, line } = fitted(places, heights, (x) => x >= inner && x <= outer);
-  return { places, heights, line, angle: (-Math.atan(slope) * 180) / Math.PI };
+  if (!grains.length) return { places: [], heights: [], line: [], angle: NaN };
+  const foot = footOf(grains);
+  const half = foot + diameter;
+  const cell = Math.max(diameter / 4, (2 * half) / 1024);
+  const count = Math.ceil((2 * half) / cell);
+  const surface = new Float64Array(count * count);
+  const placeOf = (n) => (n + 0.5) * cell - half;
+  const cellOf = (x) => Math.min(count - 1, Math.max(0, Math.floor((x + half) / cell)));
+  for (const { across, along, height, radius } of grains) {
+    const reach = radius + meanRadius;
+    for (let i = cellOf(across - reach); i <= cellOf(across + reach); ++i)
+      for (let j = cellOf(along - reach); j <= cellOf(along + reach); ++j) {
+        const square = reach ** 2 - (placeOf(i) - across) ** 2 - (placeOf(j) - along) ** 2;
+        if (square > 0) surface[i * count + j] = Math.max(surface[i * count + j], height - meanRadius + Math.sqrt(square));
+      }
+  }
+  const ringWidth = diameter / 2;
+  const rings = [];
+  const cells = [];
+  for (let i = 0; i < count; ++i)
+    for (let j = 0; j < count; ++j) {
+      const out = Math.hypot(placeOf(i), placeOf(j));
+      const ring = (rings[Math.floor(out / ringWidth)] ??= { sum: 0, cells: 0 });
+      ring.sum += surface[i * count + j];
+      ++ring.cells;
+      if (surface[i * count + j] > 0) cells.push([out, surface[i * count + j]]);
+    }
+  const places = Array.from(rings, (_, ring) => (ring + 0.5) * ringWidth);
+  const heights = Array.from(rings, (ring) => (ring ? ring.sum / ring.cells : 0));
+  const apex = Math.max(...heights);
+  let inner = sensor.outer_radius ? sensor.inner_radius ?? 0 : 0;
+  let outer = sensor.outer_radius || Infinity;
+  if (!sensor.outer_radius)
+    places.forEach((x, ring) => {
+      if (heights[ring] > 0.8 * apex) inner = x;
+      if (heights[ring] < Math.max(0.2 * apex, 1.5 * diameter)) outer = Math.min(outer, x);
+    });
+  outer = Math.min(outer, foot);
+  const within = (x) => x >= inner && x <= outer;
+  const { slope, at } = fitted(cells.map(([out]) => out), cells.map(([, height]) => height), within);
+  return { places, heights, line: places.map((x) => (within(x) ? at(x) : null)), angle: (-Math.atan(slope) * 180) / Math.PI };
+}
+
+/** The distance from the axis within which 99 % of the mass lies. */
+function footOf(grains) {
+  const mass = grains.map(({ across, along, radius }) => [Math.hypot(across, along), radius ** 3]).sort((a, b) => a[0] - b[0]);
+  let left = 0.99 * mass.reduce((sum, [, one]) => sum + one, 0);
+  for (const [out, one] of mass) if ((left -= one) <= 0) return out;
+  return mass.at(-1)[0];
 }
 
 /** Heights of a surface along a direction, as the sensor `slope` finds them, with its line. */
@@ -94,8 +122,8 @@ export function slopeProfile(recording, k, sensor) {
   const numbers = [...cells.keys()].sort((a, b) => a - b);
   const places = numbers.map((cell) => (cell + 0.5) * width - half);
   const heights = numbers.map((cell) => mean([...cells.get(cell).values()]));
-  const { slope, line } = fitted(places, heights, () => true);
-  return { places, heights, line, angle: (-Math.atan(slope) * 180) / Math.PI };
+  const { slope, at } = fitted(places, heights, () => true);
+  return { places, heights, line: places.map(at), angle: (-Math.atan(slope) * 180) / Math.PI };
 }
 
 /** Area of the convex outline of points in a plane, and its length. */
