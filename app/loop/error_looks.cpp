@@ -12,22 +12,31 @@ namespace talus
 namespace
 {
 
-// A step solved to the end. Far fewer sweeps than the most are made in most looks, by what these may cost.
+// A step solved to the end.
 constexpr double exact_tolerance = 1e-12;
 constexpr int most_sweeps = 20000;
 
 /// A copy whose next step is solved to the end, or as far as so many sweeps go.
-Simulation exact_copy(const Simulation& simulation, int sweeps = most_sweeps)
+Simulation exact_copy(const Simulation& simulation, double tolerance = exact_tolerance, int sweeps = most_sweeps)
 {
     Simulation copy = copy_without_sensors(simulation);
-    copy.model.solver.tolerance = exact_tolerance;
+    copy.model.solver.tolerance = tolerance;
     copy.model.solver.max_sweeps = sweeps;
     return copy;
 }
 
-// A look says something only where it goes much further than the step itself.
+// A look goes this much further than the step, in residual; in sweeps by no less than this, whatever it costs, and
+// otherwise as far as looks, with all that were before, cost no more than so many times their share.
+constexpr double further = 1e-3;
 constexpr int least_sweeps = 100;
-constexpr int least_times_as_far = 10;
+constexpr double most_shares = 10.0 / 3.0;
+
+constexpr double parts_per_share = 4000.0; ///< 120 parts for the usual share
+constexpr double least_cost_of_look = 4.0; ///< in steps; what it is in truth joins parts
+constexpr double memory = 0.25;            ///< weight of the last look in what they cost of late
+constexpr double dear = 4.0 / 3.0;         ///< shares that they then may cost
+constexpr double fewest = 1.0 / 15;        ///< of the parts, before which it is too early to judge
+constexpr double golden_ratio = 0.61803398874989485;
 
 /// By id: a step may put spheres into another order.
 using Velocities = std::unordered_map<std::int64_t, Vec3>;
@@ -143,30 +152,56 @@ std::vector<std::size_t> watched_walls(const scene::Scene& scene, const Model& m
     return walls;
 }
 
+void ErrorLooks::begin_part(std::int64_t step)
+{
+    // Places in the parts that are spread evenly, so that nothing that comes back after a time is always met alike.
+    const double place = std::fmod(golden_ratio * static_cast<double>(++parts_), 1.0);
+    begin_ = step;
+    next_ = begin_ + static_cast<std::int64_t>(place * static_cast<double>(part_));
+}
+
+void ErrorLooks::join_parts()
+{
+    // Of two looks now the first is kept and now the second. The part that goes on is the first or the second half of
+    // one that is twice as long.
+    const bool is_first_half = looks_.size() % 2 == 1;
+    std::vector<ErrorLook> kept;
+    for (std::size_t k = 0; k + 1 < looks_.size(); k += 2) kept.push_back(std::move(looks_[k + k / 2 % 2]));
+    if (is_first_half) kept.push_back(std::move(looks_.back()));
+    looks_ = std::move(kept);
+    if (!is_first_half) begin_ -= part_;
+    part_ *= 2;
+}
+
 void ErrorLooks::before_step(const Simulation& simulation)
 {
     copy_.reset();
-    const std::int64_t steps = simulation.state.steps;
-    if (contacts_ == 0 || steps % interval_ != 0) return;
-    const double sweeps = credit_ / static_cast<double>(contacts_) - 2.0 * rest_of_step;
-    if (sweeps < std::max(least_sweeps, least_times_as_far * sweeps_)) {
-        ++put_off_;
-        return;
+    const std::int64_t step = simulation.state.steps;
+    if (part_ == 0) {
+        const double steps = (simulation.duration - simulation.state.time) / simulation.model.time_step;
+        const double part = std::max(steps / (parts_per_share * share_), least_cost_of_look / share_);
+        part_ = static_cast<std::int64_t>(std::clamp(part, 1.0, 1e9));
+        begin_part(step);
     }
-    copy_ =
-        std::make_shared<Simulation>(exact_copy(simulation, static_cast<int>(std::min<double>(sweeps, most_sweeps))));
+    if (step == begin_ + part_) begin_part(step);
+    if (step != next_ || contacts_ == 0) return;
+    const double affordable =
+        (most_shares * share_ * cost_ - spent_) / static_cast<double>(contacts_) - 2.0 * rest_of_step;
+    copy_ = std::make_shared<Simulation>(
+        exact_copy(simulation, std::max(exact_tolerance, further * simulation.model.solver.tolerance),
+            static_cast<int>(std::clamp<double>(affordable, least_sweeps, most_sweeps))));
 }
 
 void ErrorLooks::after_step(const Simulation& simulation, const StepReport& report)
 {
     contacts_ = static_cast<std::int64_t>(report.contacts.count);
-    sweeps_ = report.solve.sweeps;
-    credit_ += share_ * cost_of(report);
+    cost_ += cost_of(report);
     if (!copy_) return;
 
     const Velocities free = free_velocities(*copy_);
     const StepReport exact = advance(*copy_);
-    credit_ -= cost_of(exact) + rest_of_step * static_cast<double>(exact.contacts.count); // the copy counts as well
+    const double looked = cost_of(exact) + rest_of_step * static_cast<double>(exact.contacts.count); // with the copy
+    spent_ += looked;
     ErrorLook look;
     look.time = simulation.state.time;
     look.residual = exact.solve.residual;
@@ -185,10 +220,11 @@ void ErrorLooks::after_step(const Simulation& simulation, const StepReport& repo
     ++made_;
     latest_ = look;
     looks_.push_back(std::move(look));
-    if (looks_.size() < most) return;
-    for (std::size_t k = 1; k < most / 2; ++k) looks_[k] = std::move(looks_[2 * k]);
-    looks_.resize(most / 2);
-    interval_ *= 2;
+    recent_looks_ += memory * (looked - recent_looks_);
+    recent_steps_ += memory * (cost_of(report) - recent_steps_);
+    const double parts = parts_per_share * share_, kept = static_cast<double>(looks_.size());
+    const bool is_dear = recent_looks_ > dear * share_ * static_cast<double>(part_) * recent_steps_;
+    if ((is_dear && kept > fewest * parts) || kept >= 2.0 * parts) join_parts();
 }
 
 SolverErrorSummary ErrorLooks::summary(const Model& model) const
@@ -196,7 +232,7 @@ SolverErrorSummary ErrorLooks::summary(const Model& model) const
     SolverErrorSummary summary;
     summary.looks = static_cast<std::int64_t>(looks_.size());
     summary.made = made_;
-    summary.put_off = put_off_;
+    summary.share = cost_ > 0.0 ? spent_ / cost_ : 0.0;
     summary.to_the_end = std::ranges::count_if(looks_, [](const ErrorLook& look) { return look.to_the_end; });
     summary.residual = rms_over(looks_, [](const ErrorLook& look) { return look.residual; });
     summary.velocity_error = rms_over(looks_, [](const ErrorLook& look) { return look.velocity_error; });

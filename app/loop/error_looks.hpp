@@ -47,14 +47,14 @@ double velocity_error_of_next_step(const Simulation& simulation);
 std::vector<std::size_t> watched_walls(const scene::Scene& scene, const Model& model);
 
 /// Looks at the error of the solver while a run goes on: now and then a step is made once more on a copy, from the same
-/// start, and solved to the end, or as far as there is time for. The run itself does not change by it.
+/// start, and solved a thousand times as well. The run itself does not change by it.
 ///
-/// When, and how far, follows from the steps alone and never from the clock, so that the looks of a run are the same
-/// bits on any machine, for any number of threads, and after a stop. Every step gains looks a share of its contact
-/// updates (contacts × sweeps, the rest of a step counted as some more), and a look spends what has been gained. One is
-/// due every so many steps; it is put off to the next time where what was gained does not carry it far enough to say
-/// anything. When there are `most` looks, every second one is forgotten and the next ones are due half as often: so
-/// they are spread evenly over a run of any length, which need not be known.
+/// The steps to look at are chosen before they are made, one in each of many equal parts of the run, so that they are a
+/// fair sample of it, busy steps and quiet ones. The number of parts follows from the run's length, and from what looks
+/// turn out to cost beside steps, in contact updates (contacts × sweeps, the rest of a step counted as some more):
+/// where that is more than the share that they may have, two parts become one, of whose looks one is forgotten. All of
+/// it follows from the steps alone and never from the clock, so that the looks of a run are the same bits on any
+/// machine, for any number of threads, and after a stop.
 class ErrorLooks
 {
 public:
@@ -64,7 +64,7 @@ public:
     /// From now on looks may take this share of what the steps cost.
     void set_share(double share) { share_ = share; }
 
-    /// Before a step: keeps the state that it begins with where a look at it is due.
+    /// Before a step: keeps the state that it begins with where it is one to look at.
     void before_step(const Simulation& simulation);
 
     /// Whether the step to come, or just made, is one to look at.
@@ -82,21 +82,28 @@ public:
     /// @pre no look is open
     void persist(Archive& archive)
     {
-        archive(looks_, latest_, made_, put_off_, interval_, credit_, contacts_, sweeps_);
+        archive(looks_, latest_, made_, part_, begin_, next_, parts_, spent_, cost_, recent_looks_, recent_steps_,
+            contacts_);
     }
 
 private:
-    static constexpr std::size_t most = 40;
-
     double share_ = usual_share;
-    std::vector<ErrorLook> looks_;
+    std::vector<ErrorLook> looks_; ///< one of each part that is over, but for those without contacts
     ErrorLook latest_;
-    std::int64_t made_ = 0, put_off_ = 0;
-    std::int64_t interval_ = 64;       ///< between two looks [steps]
-    double credit_ = 0.0;              ///< what looks may cost now [contact updates]
+    std::int64_t made_ = 0;
+    std::int64_t part_ = 0;            ///< length of a part of the run [steps]; 0: not known yet
+    std::int64_t begin_ = 0;           ///< of the part that goes on [steps]
+    std::int64_t next_ = 0;            ///< step to look at
+    std::int64_t parts_ = 0;           ///< that have been begun
+    double spent_ = 0.0;               ///< on looks [contact updates]
+    double cost_ = 0.0;                ///< of the steps [contact updates]
+    double recent_looks_ = 0.0;        ///< what looks cost of late [contact updates]
+    double recent_steps_ = 0.0;        ///< and those steps
     std::int64_t contacts_ = 0;        ///< of the last step
-    int sweeps_ = 0;                   ///< of the last step
     std::shared_ptr<Simulation> copy_; ///< as the step begins; none between steps, when looks may be copied
+
+    void begin_part(std::int64_t step);
+    void join_parts();
 };
 
 } // namespace talus

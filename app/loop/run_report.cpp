@@ -181,8 +181,7 @@ std::string percent(double share)
 void print_solver_error(const SolverErrorSummary& e)
 {
     if (e.looks == 0) {
-        say("  {:<28} unknown: the run was too short to look at it{}\n", "error of the solver",
-            e.put_off > 0 ? ", see --error-estimate" : "");
+        say("  {:<28} unknown: the run was too short to look at it, see --error-estimate\n", "error of the solver");
         return;
     }
     say("  {:<28} {:.2g} m/s{}, {} of the flow's, {} of what contacts change\n", "error of velocities",
@@ -191,9 +190,9 @@ void print_solver_error(const SolverErrorSummary& e)
     say("  {:<28} {} of their mean\n", "error of contact forces", percent(e.force_error));
     for (const WallForceError& wall : e.walls)
         say("  {:<28} {:.2g} N of {:.4g} N\n", fmt::format("error of force on {}", wall.wall), wall.error, wall.force);
-    say("  {:<28} {} steps solved again, {} of them to the end, all to a residual of {:.2g}{}\n", "  from looks at",
-        e.looks, e.to_the_end, e.residual,
-        e.put_off > 0 ? fmt::format("; {} times a look was put off, for it could not be paid", e.put_off) : "");
+    say("  {:<28} {} steps solved again, {} of them a thousand times as well, all to a residual of {:.2g}; {} of the "
+        "steps' work\n",
+        "  from looks at", e.looks, e.to_the_end, e.residual, percent(e.share));
 }
 
 void print_error(const RunSummary& summary)

@@ -184,8 +184,8 @@ Json to_json(const SolverErrorSummary& solver)
 {
     Json walls = Json::object();
     for (const WallForceError& wall : solver.walls) walls[wall.wall] = {{"error", wall.error}, {"force", wall.force}};
-    return {{"looks", solver.looks}, {"made", solver.made}, {"put_off", solver.put_off},
-        {"to_the_end", solver.to_the_end}, {"residual", solver.residual},
+    return {{"looks", solver.looks}, {"made", solver.made}, {"share", solver.share}, {"to_the_end", solver.to_the_end},
+        {"residual", solver.residual},
         {"velocity", {{"error", solver.velocity_error}, {"worst", solver.worst_velocity_error},
                          {"worst_at", solver.worst_time}, {"in_sqrt_gd", solver.in_fall_speeds},
                          {"of_flow", solver.of_flow}, {"of_contacts", solver.of_contacts}}},

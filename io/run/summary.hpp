@@ -92,8 +92,8 @@ struct SolverErrorSummary {
 
     std::int64_t looks = 0;            ///< that these are from
     std::int64_t made = 0;             ///< with those that were forgotten for the sake of even spacing
-    std::int64_t put_off = 0;          ///< times that a look was due and could not be paid for
-    std::int64_t to_the_end = 0;       ///< of `looks`: whose solution has reached 1e-12
+    double share = 0.0;                ///< of what the steps cost that was spent on them
+    std::int64_t to_the_end = 0;       ///< of `looks`: whose solution is a thousand times as good as is asked of a step
     double residual = unknown;         ///< of the solutions that were compared with
     double velocity_error = unknown;   ///< [m/s]
     double worst_velocity_error = 0.0; ///< of one look [m/s]

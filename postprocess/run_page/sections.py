@@ -184,7 +184,7 @@ def solver_error(found):
             ("Error of contact forces", f"{percent(found['contact_forces'])} of their mean")]
     rows += [(f"Error of the force on {name}", f"{number(wall['error'], 2)} N, beside {number(wall['force'])} N")
              for name, wall in found["wall_forces"].items()]
-    rows.append(("Found by", f"{number(found['looks'])} steps made once more, {number(found['to_the_end'])} of them solved to the end, "
+    rows.append(("Found by", f"{number(found['looks'])} steps made once more, {number(found['to_the_end'])} of them a thousand times as well, "
                              f"all to a residual of {number(found['residual'], 2)}"))
     return rows
 
