@@ -8,6 +8,7 @@ Frames are read with VTK (Debian: python3-vtk9), which is loaded only then.
 import csv
 import fcntl
 import json
+import os
 import tomllib
 import xml.etree.ElementTree as xml
 from pathlib import Path
@@ -54,16 +55,25 @@ class Spheres:
             setattr(self, self.NAMES.get(array.GetName(), array.GetName()), vtk_to_numpy(array))
 
 
-def is_locked(path):
-    """Whether a process of Talus writes into the folder of this lock."""
+def is_locked(folder):
+    """Whether a process of Talus writes into a folder: it holds it locked, and talus.lock in it, until it ends."""
+    return any(is_held(one) for one in (folder, folder / "talus.lock"))
+
+
+def is_held(path):
     try:
-        with path.open("rb") as file:
-            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        return False
-    except FileNotFoundError:
-        return False
+        descriptor = os.open(path, os.O_RDONLY)
     except OSError:
+        return False
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        return False
+    except BlockingIOError:
         return True
+    except OSError:
+        return False  # what cannot be locked is locked by nobody
+    finally:
+        os.close(descriptor)
 
 
 class Run:
@@ -78,8 +88,8 @@ class Run:
             raise RunError(f"{self.folder} holds no run of Talus: it has no scene.resolved.toml.")
 
     def is_going_on(self):
-        """Whether a process of Talus writes into the folder: it holds talus.lock locked until it ends."""
-        return is_locked(self.folder / "talus.lock")
+        """Whether a process of Talus writes into the folder."""
+        return is_locked(self.folder)
 
     def scene(self):
         """The scene with all its keys, as nested dictionaries."""

@@ -57,7 +57,8 @@ OpenedScene build_opened(SceneFile file, std::string name)
         file.scene.measured = read_measured_settings(own_files() / "scenarios" / "accuracy" / "settings.toml");
     try {
         auto [simulation, report, output] = build_scene(file.scene);
-        return {std::move(name), std::move(file.scene), std::move(simulation), std::move(report), std::move(output)};
+        return {std::move(name), std::move(file.path), std::move(file.scene), std::move(simulation), std::move(report),
+            std::move(output)};
     } catch (const SceneError& error) {
         const std::string first =
             error.first_key.empty() ? "" : fmt::format("; the first is at {}", file.place_of(error.first_key));
@@ -69,6 +70,13 @@ OpenedScene open_scene(const SceneRequest& request)
 {
     const fs::path path = scene_path(request.scene);
     return build_opened(read_scene_as_asked(path, request), path.stem());
+}
+
+std::vector<fs::path> inputs_of(const OpenedScene& opened)
+{
+    std::vector<fs::path> inputs = {opened.path};
+    for (const NamedFile& file : named_files(opened.scene)) inputs.emplace_back(file.path);
+    return inputs;
 }
 
 void warn_unless_protected(const FolderLock& lock)

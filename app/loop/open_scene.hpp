@@ -26,6 +26,7 @@ struct SceneRequest {
 /// A scene that was read and built, ready to run.
 struct OpenedScene {
     std::string name; ///< of the file, without folder and ending
+    std::filesystem::path path;
     scene::Scene scene;
     Simulation simulation;
     BuildReport report; ///< what there is to report of the simulation as it was built
@@ -51,6 +52,9 @@ SceneFile read_scene_as_asked(const std::filesystem::path& path, const SceneRequ
 /// Builds a scene that was read.
 /// @throws InputError with file, line and column
 OpenedScene build_opened(SceneFile file, std::string name);
+
+/// The files that a scene was read from: its own, and those that it names.
+std::vector<std::filesystem::path> inputs_of(const OpenedScene& opened);
 
 /// Says so where a folder cannot be kept from others.
 void warn_unless_protected(const FolderLock& lock);

@@ -43,23 +43,22 @@ std::vector<std::pair<bool, bool>> standing_walls(const Model& model, double tim
 
 } // namespace
 
-RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity)
-    : RunLoop(opened, folder, verbosity, nullptr)
+RunLoop::RunLoop(OpenedScene& opened, FolderLock& lock, Verbosity verbosity) : RunLoop(opened, lock, verbosity, nullptr)
 {
 }
 
-RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive& checkpoint)
-    : RunLoop(opened, folder, verbosity, &checkpoint)
+RunLoop::RunLoop(OpenedScene& opened, FolderLock& lock, Verbosity verbosity, Archive& checkpoint)
+    : RunLoop(opened, lock, verbosity, &checkpoint)
 {
 }
 
-RunLoop::RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive* checkpoint)
-    : scene_(opened.scene), simulation_(opened.simulation), folder_(folder),
+RunLoop::RunLoop(OpenedScene& opened, FolderLock& lock, Verbosity verbosity, Archive* checkpoint)
+    : scene_(opened.scene), simulation_(opened.simulation), lock_(lock), folder_(lock.folder()),
       origin_(origin_of(opened.name, opened.scene)), wall_interval_(opened.scene.checkpoint.wall_interval),
       verbosity_(verbosity), metrics_schedule_(opened.scene.time.metrics_interval),
       particle_schedule_(opened.scene.time.frame_interval), contact_schedule_(opened.scene.output.contact_interval),
       checkpoint_schedule_(opened.scene.checkpoint.interval),
-      watched_walls_(watched_walls(opened.scene, opened.simulation.model)), frames_(folder, opened.output),
+      watched_walls_(watched_walls(opened.scene, opened.simulation.model)), frames_(folder_, opened.output),
       progress_(verbosity, opened.simulation)
 {
     if (checkpoint)
@@ -155,6 +154,7 @@ RunEnd RunLoop::end()
 void RunLoop::before_step(bool is_last)
 {
     if (simulation_.escaped.size() > lost_) {
+        lock_.hold();
         write_lost(folder_, simulation_.escaped);
         lost_ = simulation_.escaped.size();
     }
@@ -232,6 +232,7 @@ void RunLoop::take_checkpoint()
 void RunLoop::write_checkpoint()
 {
     clock_.begin(RunPhase::output);
+    lock_.hold();
     metrics_->sync();
     talus::write_checkpoint(folder_, TALUS_VERSION, recent_.bytes);
     note_checkpoint(folder_, recent_.time);
@@ -298,18 +299,21 @@ void RunLoop::write_metrics(const StepReport& report)
         row.push_back(look.wall_errors.empty() ? ErrorLook::unknown : look.wall_errors[w]);
     for (const auto& sensor : simulation_.sensors)
         for (const Measurement& m : sensor->latest()) row.push_back(m.value);
+    lock_.hold();
     metrics_->add_row(row);
     last_metrics_ = state.steps;
 }
 
 void RunLoop::write_tables()
 {
+    lock_.hold();
     for (const auto& sensor : simulation_.sensors)
         if (const auto table = sensor->table()) write_table(folder_, sensor->name, *table);
 }
 
 void RunLoop::write_particles()
 {
+    lock_.hold();
     frames_.write_particles(simulation_);
     const ModelledPhysics& physics = simulation_.model.physics;
     if (physics.moving_walls || physics.pistons) frames_.write_moving_walls(simulation_.model, simulation_.state);
@@ -318,12 +322,14 @@ void RunLoop::write_particles()
 
 void RunLoop::write_contacts()
 {
+    lock_.hold();
     frames_.write_contacts(simulation_);
     last_contacts_ = simulation_.state.steps;
 }
 
 void RunLoop::write_walls()
 {
+    lock_.hold();
     frames_.write_walls(simulation_.model, simulation_.state);
     standing_ = standing_walls(simulation_.model, simulation_.state.time);
 }

@@ -37,14 +37,14 @@ class RunLoop
 {
 public:
     /// A run from its beginning.
-    /// @param folder the output folder, which exists
+    /// @param lock on the output folder
     /// @throws OutputError
-    RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity);
+    RunLoop(OpenedScene& opened, FolderLock& lock, Verbosity verbosity);
 
     /// A run from its checkpoint, which is put back into the simulation; what was written after it is taken away.
     /// @param checkpoint what a RunLoop stored
     /// @throws ArchiveError, InputError before anything is changed in the folder; OutputError
-    RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive& checkpoint);
+    RunLoop(OpenedScene& opened, FolderLock& lock, Verbosity verbosity, Archive& checkpoint);
 
     /// Runs to the end, to the first step with incidents that stop it, or until a signal asks it to stop.
     /// @throws OutputError
@@ -69,7 +69,7 @@ public:
     const PhaseClock& clock() const { return clock_; }
 
 private:
-    RunLoop(OpenedScene& opened, const std::filesystem::path& folder, Verbosity verbosity, Archive* checkpoint);
+    RunLoop(OpenedScene& opened, FolderLock& lock, Verbosity verbosity, Archive* checkpoint);
     void begin();
     void go_on(Archive& checkpoint);
 
@@ -94,6 +94,7 @@ private:
 
     const scene::Scene& scene_;
     Simulation& simulation_;
+    FolderLock& lock_;
     std::filesystem::path folder_;
     RunOrigin origin_;
     double wall_interval_; ///< between checkpoints [s]

@@ -99,10 +99,10 @@ Session::Session(OpenedScene opened, int threads)
 void Session::write_into(const fs::path& folder, bool force)
 {
     const auto files = named_files(opened_.scene);
-    lock_ =
-        std::make_unique<FolderLock>(make_run_folder(folder, resolved_scene(with_copies(opened_.scene, files)), force));
+    lock_ = std::make_unique<FolderLock>(
+        make_run_folder(folder, resolved_scene(with_copies(opened_.scene, files)), force, inputs_of(opened_)));
     copy_files(files, folder);
-    loop_ = std::make_unique<RunLoop>(opened_, folder, Verbosity::quiet);
+    loop_ = std::make_unique<RunLoop>(opened_, *lock_, Verbosity::quiet);
 }
 
 std::shared_ptr<Session> Session::resume(const fs::path& place, const std::vector<std::string>& overrides, int threads)
@@ -124,8 +124,8 @@ std::shared_ptr<Session> Session::resume(const fs::path& place, const std::vecto
             return session;
         }
         OpenedScene& opened = session->opened_;
-        session->loop_ = std::make_unique<RunLoop>(opened, place, Verbosity::quiet, archive);
         session->lock_ = std::move(lock);
+        session->loop_ = std::make_unique<RunLoop>(opened, *session->lock_, Verbosity::quiet, archive);
         write_atomically(scene, resolved_scene(with_copies(opened.scene, named_files(opened.scene))));
         fs::remove(place / "summary.json"); // of a run that had ended; this one has not
         return session;
@@ -262,6 +262,7 @@ void Session::close()
     if (!loop_) return;
     change();
     const RunEnd end = loop_->end();
+    lock_->hold();
     write_summary(
         lock_->folder() / "summary.json", summarise(opened_, loop_->statistics(), loop_->clock(), end.incidents));
     last_ = loop_->last();

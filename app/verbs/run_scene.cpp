@@ -105,12 +105,14 @@ std::unique_ptr<ScriptBeside> watch_beside(const CommandLine& line, const fs::pa
 
 /// Runs what is ready to run, writes summary.json and tells how it went. The page comes last: it takes seconds, and
 /// whoever does not want to wait for it ends the program with a second Ctrl-C.
-ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const CommandLine& line, const fs::path& folder)
+ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const CommandLine& line, FolderLock& lock)
 {
+    const fs::path folder = lock.folder();
     if (line.error_estimate) loop.estimate_error();
     const auto watcher = watch_beside(line, folder);
     const RunEnd end = loop.run();
     const RunSummary summary = summarise(opened, loop.statistics(), loop.clock(), end.incidents);
+    lock.hold();
     write_summary(folder / "summary.json", summary);
     if (line.verbosity != Verbosity::quiet) print_results(summary);
     print_incidents(summary, folder, opened.report.world);
@@ -159,7 +161,8 @@ ExitCode run_opened(OpenedScene opened, const CommandLine& line)
     if (line.threads > 0) omp_set_num_threads(line.threads);
     const fs::path folder = line.out.empty() ? fs::path("out") / opened.name : line.out;
     const auto files = named_files(opened.scene);
-    const FolderLock lock = make_run_folder(folder, resolved_scene(with_copies(opened.scene, files)), line.force);
+    FolderLock lock =
+        make_run_folder(folder, resolved_scene(with_copies(opened.scene, files)), line.force, inputs_of(opened));
     copy_files(files, folder);
     warn_unless_protected(lock);
     catch_signals();
@@ -175,14 +178,14 @@ ExitCode run_opened(OpenedScene opened, const CommandLine& line)
         advise_to_relax(overlaps, d);
     }
 
-    RunLoop loop(opened, folder, line.verbosity);
-    return run_to_end(opened, loop, line, folder);
+    RunLoop loop(opened, lock, line.verbosity);
+    return run_to_end(opened, loop, line, lock);
 }
 
 ExitCode resume_run(const CommandLine& line)
 {
     const fs::path scene = scene_of_run(line.out);
-    const FolderLock lock(line.out);
+    FolderLock lock(line.out);
     warn_unless_protected(lock);
     Checkpoint checkpoint = read_checkpoint(line.out, TALUS_VERSION);
     if (line.threads > 0) omp_set_num_threads(line.threads);
@@ -195,11 +198,11 @@ ExitCode resume_run(const CommandLine& line)
         OpenedScene opened = build_opened(std::move(file), origin.scene_name);
         catch_signals();
 
-        RunLoop loop(opened, line.out, line.verbosity, archive);
+        RunLoop loop(opened, lock, line.verbosity, archive);
         write_atomically(scene, resolved_scene(with_copies(opened.scene, named_files(opened.scene))));
         fs::remove(line.out / "summary.json"); // of a run that had ended; this one has not
         print_resumption(opened, checkpoint, line);
-        return run_to_end(opened, loop, line, line.out);
+        return run_to_end(opened, loop, line, lock);
     } catch (const ArchiveError& error) {
         throw InputError(fmt::format(
             "{}: cannot be put back, as by another build of Talus: {}", checkpoint.path.string(), error.what()));

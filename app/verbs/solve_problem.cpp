@@ -147,11 +147,8 @@ ExitCode solve_and_tell(AnyIterate& x, const AnyProblem& problem, const CommandL
 ExitCode solve_problem(const CommandLine& line)
 {
     const SolveRequest& request = line.solve;
-    for (const auto& path : {request.history, line.out}) {
-        if (!path.empty() && fs::exists(path) && fs::exists(request.problem) && fs::equivalent(path, request.problem))
-            throw UsageError(fmt::format("{} is the problem itself; name another file for the result", path.string()));
-        if (!path.empty()) require_writable(path, line.force);
-    }
+    for (const auto& path : {request.history, line.out})
+        if (!path.empty()) require_writable(path, line.force, {request.problem});
     FclibProblem file = read_fclib(request.problem);
     const std::string name = request.problem.string();
     require_algorithm(request, file);

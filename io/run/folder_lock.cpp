@@ -33,12 +33,20 @@ std::string host()
     return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "an unknown host";
 }
 
-/// Whether the name still leads to the open file: its last owner takes the file away when it is done.
+/// Whether the name still leads to what is open.
 bool is_still_there(const fs::path& path, int descriptor)
 {
     struct stat open = {}, named = {};
     return ::fstat(descriptor, &open) == 0 && ::stat(path.c_str(), &named) == 0 && open.st_ino == named.st_ino &&
            open.st_dev == named.st_dev;
+}
+
+enum class Lock { taken, of_another, unknown };
+
+Lock lock(int descriptor)
+{
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return Lock::taken;
+    return errno == EWOULDBLOCK ? Lock::of_another : Lock::unknown;
 }
 
 [[noreturn]] void refuse_second_owner(const fs::path& folder, const fs::path& lock)
@@ -54,37 +62,70 @@ bool is_still_there(const fs::path& path, int descriptor)
 
 FolderLock::FolderLock(const fs::path& folder) : path_(folder / lock_name)
 {
-    do {
-        if (descriptor_ >= 0) ::close(descriptor_);
-        descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        if (descriptor_ < 0) refuse(path_);
-        protects_ = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
-        if (!protects_ && errno == EWOULDBLOCK) {
-            ::close(descriptor_);
-            refuse_second_owner(folder, path_);
-        }
-    } while (!is_still_there(path_, descriptor_));
-
-    const std::string owner = fmt::format("process {} on {}\n", ::getpid(), host());
-    if (::ftruncate(descriptor_, 0) != 0 || ::write(descriptor_, owner.data(), owner.size()) < 0) {
-        const int failure = errno;
-        ::unlink(path_.c_str());
-        ::close(descriptor_);
-        errno = failure;
-        refuse(path_);
+    folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder_ < 0) refuse(folder);
+    const Lock of_folder = lock(folder_);
+    folder_protects_ = of_folder == Lock::taken;
+    if (of_folder == Lock::of_another || !take_file()) {
+        close();
+        refuse_second_owner(folder, path_);
     }
 }
 
-FolderLock::FolderLock(FolderLock&& other) noexcept
-    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), protects_(other.protects_)
+/// Locks the file, which is made where it is not there. False where another process has it.
+bool FolderLock::take_file()
 {
+    do {
+        if (file_ >= 0) ::close(file_);
+        file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        const Lock of_file = file_ >= 0 ? lock(file_) : Lock::unknown;
+        if (of_file == Lock::of_another) return false;
+        protects_ = folder_protects_ || of_file == Lock::taken;
+        if (file_ < 0) {
+            const int failure = errno;
+            close();
+            errno = failure;
+            refuse(path_);
+        }
+    } while (!is_still_there(path_, file_)); // its last owner takes it away when it is done
+
+    const std::string owner = fmt::format("process {} on {}\n", ::getpid(), host());
+    if (::ftruncate(file_, 0) == 0 && ::write(file_, owner.data(), owner.size()) >= 0) return true;
+    const int failure = errno;
+    ::unlink(path_.c_str());
+    close();
+    errno = failure;
+    refuse(path_);
+}
+
+void FolderLock::hold()
+{
+    if (!is_still_there(folder(), folder_))
+        throw OutputError(
+            fmt::format("{}: the folder was removed or moved while this run wrote into it", folder().string()));
+    if (!is_still_there(path_, file_) && !take_file())
+        throw OutputError(
+            fmt::format("{}: the file was removed, and another process has the folder by now; nothing more is "
+                        "written",
+                path_.string()));
+}
+
+FolderLock::FolderLock(FolderLock&& other) noexcept
+    : path_(std::move(other.path_)), folder_(std::exchange(other.folder_, -1)), file_(std::exchange(other.file_, -1)),
+      protects_(other.protects_), folder_protects_(other.folder_protects_)
+{
+}
+
+void FolderLock::close()
+{
+    if (file_ >= 0) ::close(std::exchange(file_, -1));
+    if (folder_ >= 0) ::close(std::exchange(folder_, -1));
 }
 
 FolderLock::~FolderLock()
 {
-    if (descriptor_ < 0) return;
-    ::unlink(path_.c_str());
-    ::close(descriptor_);
+    if (file_ >= 0 && is_still_there(path_, file_)) ::unlink(path_.c_str());
+    close();
 }
 
 } // namespace talus

@@ -16,7 +16,8 @@ struct FolderBusy : InputError {
     using InputError::InputError;
 };
 
-/// Makes this process the only one of Talus that writes into a folder, also over NFS, until it ends in whatever way.
+/// Makes this process the only one of Talus that writes into a folder, until it ends in whatever way. The folder itself
+/// is locked, and a file in it that names its owner; where folders cannot be locked (NFS) the file alone.
 class FolderLock
 {
 public:
@@ -30,6 +31,10 @@ public:
     FolderLock& operator=(const FolderLock&) = delete;
     FolderLock& operator=(FolderLock&&) = delete;
 
+    /// To be called before each write: puts the file back where somebody has removed it.
+    /// @throws OutputError where the folder is not the one that was locked, or another process has it by now
+    void hold();
+
     /// False where the file system knows no locks.
     bool protects() const { return protects_; }
 
@@ -37,8 +42,12 @@ public:
 
 private:
     std::filesystem::path path_;
-    int descriptor_ = -1; ///< −1: moved from
-    bool protects_ = true;
+    int folder_ = -1; ///< descriptors; −1: moved from
+    int file_ = -1;
+    bool protects_ = true, folder_protects_ = true;
+
+    bool take_file();
+    void close();
 };
 
 } // namespace talus

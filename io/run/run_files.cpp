@@ -79,6 +79,20 @@ void require_usable(const fs::path& folder, bool force)
             "{}: the folder holds a run already; --force replaces it, -o chooses another", folder.string()));
 }
 
+/// @throws InputError where a run in the folder would replace what it is made from
+void require_inputs_kept(const fs::path& folder, const std::vector<fs::path>& inputs)
+{
+    std::error_code error;
+    const fs::path root = fs::weakly_canonical(folder, error);
+    for (const fs::path& input : inputs) {
+        const fs::path place = fs::weakly_canonical(input, error).parent_path();
+        if ((place == root || place == root / "frames") && is_output_of_a_run(input.filename()))
+            throw InputError(
+                fmt::format("{}: the run is made from this file, and would replace it; choose another folder with -o",
+                    input.string()));
+    }
+}
+
 /// Removes what a run wrote, and nothing else: a user may keep notes and pictures beside it. What says that the run is
 /// whole, or can go on, goes first, and the marker is left to be replaced: who is killed meanwhile leaves no run that
 /// seems to be one.
@@ -141,9 +155,11 @@ std::string header_line(const std::vector<std::string>& columns)
 
 } // namespace
 
-FolderLock make_run_folder(const fs::path& folder, const std::string& resolved_scene, bool force)
+FolderLock make_run_folder(
+    const fs::path& folder, const std::string& resolved_scene, bool force, const std::vector<fs::path>& inputs)
 {
     require_usable(folder, force);
+    require_inputs_kept(folder, inputs);
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) refuse_output(folder, error.message());
@@ -165,8 +181,12 @@ void copy_files(const std::vector<NamedFile>& files, const fs::path& folder)
     }
 }
 
-void require_writable(const fs::path& path, bool force)
+void require_writable(const fs::path& path, bool force, const std::vector<fs::path>& inputs)
 {
+    std::error_code none;
+    for (const fs::path& input : inputs)
+        if (fs::equivalent(path, input, none))
+            throw InputError(fmt::format("{}: this file is read, and is not replaced; name another", path.string()));
     if (fs::is_directory(path)) refuse_output(path, std::strerror(EISDIR));
     if (fs::is_regular_file(path) && !force)
         throw InputError(fmt::format("{}: the file is there already; --force replaces it", path.string()));

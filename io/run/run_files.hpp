@@ -20,8 +20,10 @@ namespace talus
 /// scene.resolved.toml into it first.
 /// @param force replace the files of a run of Talus that the folder holds (others in it stay); a non-empty folder
 ///   without scene.resolved.toml is never touched
+/// @param inputs that the run is made from, none of which is replaced
 /// @throws InputError where the folder may not be used, OutputError where it cannot be written
-FolderLock make_run_folder(const std::filesystem::path& folder, const std::string& resolved_scene, bool force);
+FolderLock make_run_folder(const std::filesystem::path& folder, const std::string& resolved_scene, bool force,
+    const std::vector<std::filesystem::path>& inputs = {});
 
 /// Copies the files that a scene names into the folder of a run, which then can go on wherever it is.
 /// @throws OutputError
@@ -29,9 +31,11 @@ void copy_files(const std::vector<NamedFile>& files, const std::filesystem::path
 
 /// Asks beforehand whether a file can be written later, so that nothing is computed in vain.
 /// @param force replace a file that is there already
+/// @param inputs that are read, none of which is replaced
 /// @throws InputError where there is one that is not to be replaced; OutputError where the path is a folder, or its
 /// folder is not there or may not be written
-void require_writable(const std::filesystem::path& path, bool force);
+void require_writable(
+    const std::filesystem::path& path, bool force, const std::vector<std::filesystem::path>& inputs = {});
 
 /// Whether something is there that has no such mark in its first thousand bytes, as all that Talus writes there has.
 bool is_of_others(const std::filesystem::path& path, std::string_view mark);

@@ -199,9 +199,9 @@ def write_drivers(path, talus, about, count):
 
 def remove_sweep(path):
     """Takes away what a sweep wrote; other files in its folder stay."""
-    for lock in sorted((path / "cases").glob("*/talus.lock")):
-        if is_locked(lock):
-            raise RunError(f"{lock.parent}: the case is being run; wait until it is done, or stop it.")
+    for case in sorted((path / "cases").glob("*/")):
+        if is_locked(case):
+            raise RunError(f"{case}: the case is being run; wait until it is done, or stop it.")
     for name in OWN[1:] + (MARK,):  # the mark last: what is left half removed is still known to be a sweep
         one = path / name
         if one.is_dir() and not one.is_symlink():

@@ -101,6 +101,56 @@ TEST_CASE("a folder has one owner; who comes second reads who that is, and chang
     CHECK(place.read("out/metrics.csv") == rows);
 }
 
+TEST_CASE("a folder has its owner though its lock file is removed, and gets the file back", "[app][output]")
+{
+    const Workplace place;
+    place.write("scene.toml", replaced(beads_in_a_box, "duration = 0.05", "duration = 1e4"));
+    const Outcome outcome = while_it_runs(place,
+        "rm out/talus.lock; $TALUS resume out; echo $?; $TALUS run scene.toml -o out --force; echo $?; sleep 0.3; cat "
+        "out/talus.lock",
+        "run scene.toml -o out --threads 1 --set checkpoint.interval=0.1");
+    CHECK(outcome.exit_code == 128 + 2);
+    CHECK(outcome.out.substr(0, 4) == "2\n2\n");
+    CHECK_THAT(outcome.out, Contains("process " + replaced(place.read("pid"), "\n", "") + " on "));
+    CHECK_THAT(outcome.err, Contains("writes into this folder") && Contains("nothing was changed"));
+    CHECK_FALSE(place.exists("out/talus.lock"));
+    CHECK(place.talus("resume out --quiet --until 1e-3").exit_code == 2); // it is beyond, and the folder is free
+}
+
+TEST_CASE("a run stops where its folder is taken away, and leaves another that stands there alone", "[app][output]")
+{
+    const Workplace place;
+    place.write("scene.toml", replaced(beads_in_a_box, "duration = 0.05", "duration = 1e4"));
+    const Outcome outcome = while_it_runs(place, "mv out away; mkdir out; sleep 0.5",
+        "run scene.toml -o out --threads 1 --set checkpoint.interval=5 --set time.frame_interval=5 --set "
+        "time.metrics_interval=5");
+    CHECK(outcome.exit_code == 4);
+    CHECK_THAT(outcome.err, Contains("out: the folder was removed or moved"));
+    CHECK(place.shell("ls out").out.empty());
+}
+
+TEST_CASE("--force replaces no file that the run is made from", "[app][output]")
+{
+    const Workplace place;
+    place.write("scene.toml", beads_in_a_box);
+    REQUIRE(place.talus("run scene.toml -o out --quiet").exit_code == 0);
+    const std::string resolved = place.read("out/scene.resolved.toml"),
+                      frame = place.read("out/frames/particles_000000.vtp");
+    const std::string fill =
+        "count = 8\ndiameter = 0.01\nregion = { shape = \"box\", min = [0, 0, 0], max = [0.05, 0.05, 0.05] }";
+    place.write("again.toml",
+        replaced(beads_in_a_box, fill, "arrangement = \"file\"\nfile = \"out/frames/particles_000000.vtp\""));
+    for (const std::string command :
+        {"run out/scene.resolved.toml -o out --quiet --force", "run again.toml -o out --quiet --force",
+            "dump out/scene.resolved.toml --at 0.02 --quiet --force -o out/scene.resolved.toml"}) {
+        INFO(command);
+        CHECK(place.talus(command).exit_code == 2);
+        CHECK(place.read("out/scene.resolved.toml") == resolved);
+        CHECK(place.read("out/frames/particles_000000.vtp") == frame);
+    }
+    CHECK(place.talus("run again.toml -o other --quiet").exit_code == 0);
+}
+
 TEST_CASE("what was killed owns its folder no more", "[app][output]")
 {
     const Workplace place;
