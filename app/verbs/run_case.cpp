@@ -26,6 +26,7 @@ constexpr std::chrono::seconds patience(1); ///< between two looks at a folder t
 struct Case {
     std::string name; ///< "case 7 of out/sweep"
     CommandLine line; ///< as if it were given to `run` or `resume`
+    std::string identity;
 };
 
 /// The scene of the run that a folder holds; empty where it holds none.
@@ -49,12 +50,20 @@ bool has_checkpoint(const fs::path& folder)
 ExitCode refuse(const Case& one, const std::string& sentence)
 {
     keep_refusal(one.line.out, sentence);
+    keep_identity(one.line.out, one.identity);
     warn("{} failed: {}\n", one.name, sentence);
     return ExitCode::done;
 }
 
+InputError other_settings(const Case& one)
+{
+    return InputError(fmt::format("{}: the folder holds a run with other settings than {}; --force replaces it",
+        one.line.out.string(), one.name));
+}
+
 ExitCode keep_settled(const Case& one, const std::string& status)
 {
+    keep_identity(one.line.out, one.identity);
     if (one.line.report && !fs::exists(one.line.out / "report.html")) make_page(one.line.out, one.line.verbosity);
     if (one.line.verbosity != Verbosity::quiet) say("{} is settled: {}\n", one.name, status);
     return ExitCode::done;
@@ -63,6 +72,7 @@ ExitCode keep_settled(const Case& one, const std::string& status)
 /// A run that an incident ended is the result of its case.
 ExitCode settled(const Case& one, ExitCode end)
 {
+    if (end == ExitCode::done || end == ExitCode::physics) keep_identity(one.line.out, one.identity);
     if (end != ExitCode::physics) return end;
     warn("{} failed, as its summary says\n", one.name);
     return ExitCode::done;
@@ -72,6 +82,8 @@ ExitCode settle(Case one)
 {
     CommandLine& line = one.line;
     if (fs::exists(line.out)) FolderLock wait_for_others(line.out);
+    const std::string kept = line.force ? "" : kept_identity(line.out);
+    if (!kept.empty() && kept != one.identity) throw other_settings(one);
     if (line.force) forget_refusal(line.out);
     if (const std::string sentence = kept_refusal(line.out); !sentence.empty()) return refuse(one, sentence);
 
@@ -83,9 +95,7 @@ ExitCode settle(Case one)
     }
     const std::string there = line.force ? "" : scene_there(line.out);
     if (!there.empty()) {
-        if (there != resolved_scene(with_copies(file->scene, named_files(file->scene))))
-            throw InputError(fmt::format("{}: the folder holds a run with other settings than {}; --force replaces it",
-                line.out.string(), one.name));
+        if (there != resolved_scene(with_copies(file->scene, named_files(file->scene)))) throw other_settings(one);
         const std::string status = status_of_run(line.out);
         if (status == "done" || status == "failed") return keep_settled(one, status);
         if (has_checkpoint(line.out)) {
@@ -108,7 +118,7 @@ ExitCode settle(Case one)
 ExitCode run_case(const CommandLine& line)
 {
     SweepCase found = read_sweep_case(line.scene, *line.sweep_case, TALUS_VERSION);
-    Case one{fmt::format("case {} of {}", *line.sweep_case, line.scene), line};
+    Case one{fmt::format("case {} of {}", *line.sweep_case, line.scene), line, found.identity};
     one.line.scene = found.scene;
     one.line.overrides = std::move(found.overrides);
     one.line.out = found.folder;

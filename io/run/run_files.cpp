@@ -41,8 +41,8 @@ constexpr const char* profile_prefix = "profile_";
 bool is_output_of_a_run(const std::string& name)
 {
     if (name.starts_with(profile_prefix) && (name.ends_with(".csv") || name.ends_with(".csv.tmp"))) return true;
-    constexpr std::array<std::string_view, 5> files = {
-        "metrics.csv", "summary.json", "lost.vtp", "report.html", marker};
+    constexpr std::array<std::string_view, 6> files = {
+        "metrics.csv", "summary.json", "lost.vtp", "report.html", "case.txt", marker};
     constexpr std::array<std::string_view, 5> series = {"particles", "contacts", "walls", "moving_walls", "checkpoint"};
     for (const std::string_view file : files)
         if (name == file || name == fmt::format("{}.tmp", file)) return true;
@@ -103,7 +103,8 @@ void remove_run(const fs::path& folder)
         fs::remove(path, removal);
         if (removal) refuse_output(path, removal.message());
     };
-    for (const char* first : {"summary.json", "checkpoint.latest", "checkpoint.previous"}) remove(folder / first);
+    for (const char* first : {"case.txt", "summary.json", "checkpoint.latest", "checkpoint.previous"})
+        remove(folder / first);
     std::error_code error;
     for (const fs::path& place : {folder / "frames", folder}) {
         if (!fs::is_directory(place, error)) continue;

@@ -3,12 +3,14 @@
 
 #include "io/run/run_files.hpp"
 #include "io/text/input_error.hpp"
+#include "io/text/input_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <fstream>
 #include <iterator>
+#include <map>
 
 namespace talus
 {
@@ -18,6 +20,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* refusal = "refused.txt";
+constexpr const char* identity_file = "case.txt";
 
 std::string text_of(const fs::path& path)
 {
@@ -69,6 +72,16 @@ std::vector<std::string> settings_of(const fs::path& cases, int number)
     throw InputError(fmt::format("{}: there is no case {} among its {}", cases.string(), number, last));
 }
 
+/// @throws InputError where the file is not what it was when the sweep was made
+void require_same(const fs::path& file, const std::string& sum)
+{
+    if (fmt::format("{:08x}", checksum(read_bytes(file, "a file"))) == sum) return;
+    throw InputError(
+        fmt::format("{}: the file is not what it was when the sweep was made; put it back, or begin the sweep "
+                    "anew with 'talus sweep --force'",
+            file.string()));
+}
+
 } // namespace
 
 SweepCase read_sweep_case(const fs::path& sweep, int number, const std::string& version)
@@ -80,12 +93,14 @@ SweepCase read_sweep_case(const fs::path& sweep, int number, const std::string& 
             "{}: the folder holds no sweep, which 'talus sweep' makes; a case is one of its runs", sweep.string()));
     SweepCase one;
     std::string begun_by;
+    std::map<std::string, std::string> files;
     try {
         const auto json = nlohmann::json::parse(text_of(mark));
         begun_by = json.at("version").get<std::string>();
         one.scene = sweep / json.at("scene").get<std::string>();
         one.threads = json.at("threads").get<int>();
         one.report = json.at("reports").get<bool>();
+        files = json.at("files").get<std::map<std::string, std::string>>();
     } catch (const nlohmann::json::exception& damage) {
         throw InputError(fmt::format("{}: the file is damaged: {}", mark.string(), damage.what()));
     }
@@ -96,6 +111,11 @@ SweepCase read_sweep_case(const fs::path& sweep, int number, const std::string& 
     if (!fs::is_regular_file(one.scene, error))
         throw InputError(fmt::format("{}: the scene of the sweep is not there", one.scene.string()));
     one.overrides = settings_of(sweep / "cases.csv", number);
+    for (const std::string& setting : one.overrides) one.identity += setting + "\n";
+    for (const auto& [file, sum] : files) {
+        require_same(sweep / "scene" / file, sum);
+        one.identity += fmt::format("{} {}\n", file, sum);
+    }
     one.folder = sweep / "cases" / fmt::format("{:04}", number);
     return one;
 }
@@ -104,6 +124,18 @@ std::string status_of_run(const fs::path& folder)
 {
     const auto json = nlohmann::json::parse(text_of(folder / "summary.json"), nullptr, false);
     return json.is_object() ? json.value("status", "") : "";
+}
+
+void keep_identity(const fs::path& folder, const std::string& identity)
+{
+    std::error_code error;
+    fs::create_directories(folder, error);
+    write_atomically(folder / identity_file, identity);
+}
+
+std::string kept_identity(const fs::path& folder)
+{
+    return text_of(folder / identity_file);
 }
 
 void keep_refusal(const fs::path& folder, const std::string& sentence)

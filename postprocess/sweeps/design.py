@@ -1,19 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which cases a sweep has."""
 import itertools
+import math
 import warnings
 
 from read_run import RunError
-from sweeps.request import Range
+from sweeps.request import MOST, Range
 
 
 def cases_of(sweep):
-    """The settings of each case, in order: key and value. Every setting comes with every seed."""
+    """The settings of each case, in order: key and value. Every setting comes with every seed.
+
+    Raises RunError where they are too many.
+    """
+    if (count := count_of(sweep)) > MOST:
+        raise RunError(f"{sweep.name}: the sweep has {count} cases; {MOST} are allowed.")
     cases = []
     for point in points_of(sweep):
         for seed in sweep.seeds or [None]:
             cases.append({**sweep.fixed, **point, **({} if seed is None else {"seed": seed})})
     return cases
+
+
+def count_of(sweep):
+    sizes = [one.steps or 1 if isinstance(one, Range) else len(one) for one in sweep.vary.values()]
+    points = max(sizes, default=1) if sweep.kind == "list" else math.prod(sizes) * (sweep.samples or 1)
+    return points * max(1, len(sweep.seeds))
 
 
 def points_of(sweep):

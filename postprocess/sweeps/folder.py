@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The folder of a sweep.
 
-    sweep.json      which sweep it is: version of Talus, scene, checksum of its files, titles
+    sweep.json      which sweep it is: version of Talus, scene, its files with their checksums, titles
     cases.csv       a row for each case: its number, its keys
     scene/          copies of the scene and of the files that it names, so that later changes do not mix into the sweep
     cases/0001/     the run of a case, or refused.txt, which says why its scene was refused
@@ -9,7 +9,6 @@
     results.csv, costs.csv, results.parquet, sweep.html        what was gathered
 """
 import csv
-import hashlib
 import io
 import json
 import os
@@ -17,6 +16,7 @@ import shlex
 import shutil
 import subprocess
 import tomllib
+import zlib
 from pathlib import Path
 
 from read_run import RunError, is_locked
@@ -57,6 +57,11 @@ class SweepFolder:
     def run_of(self, number):
         return self.path / "cases" / f"{number:04}"
 
+    def identity_of(self, settings):
+        """What `talus run DIR --case N` notes of a case in its folder: settings and files, a line each."""
+        lines = [f"{key}={value}" for key, value in settings.items() if value]
+        return "".join(line + "\n" for line in [*lines, *(f"{name} {one}" for name, one in sorted(self.about["files"].items()))])
+
     def varied(self):
         """The keys that are not the same in all cases, the seed last."""
         cases = list(self.cases().values())
@@ -76,7 +81,7 @@ def make_folder(sweep, path, talus, force):
     if force and path.is_dir():
         remove_sweep(path)
     cases = [{key: setting_text(value) for key, value in case.items()} for case in cases_of(sweep)]
-    about = {"version": version, "name": sweep.name, "title": sweep.title, "scene": "scene/" + files.scene, "checksum": files.checksum,
+    about = {"version": version, "name": sweep.name, "title": sweep.title, "scene": "scene/" + files.scene, "files": files.sums,
              "keys": list(cases[0]), "threads": sweep.threads, "reports": sweep.reports}
     if (path / MARK).is_file():
         cases = joined(SweepFolder(path), about, cases)
@@ -93,7 +98,7 @@ def joined(there, about, cases):
     def refuse(reason):
         raise RunError(f"{there.path}: the folder holds another sweep: {reason}; --force begins it anew, --out chooses another folder.")
 
-    for key, what in (("version", "of Talus {there}, and this is {here}"), ("checksum", "its scene, or a file that this names, is another one"),
+    for key, what in (("version", "of Talus {there}, and this is {here}"), ("files", "its scene, or a file that this names, is another one"),
                       ("keys", "its cases have the keys {there}, and those asked for {here}")):
         here, before = about[key], there.about.get(key)
         if here != before:
@@ -121,6 +126,7 @@ class SceneFiles:
     """A scene file and the files that it names, as they lie to each other.
 
     named: as the scene names them; those with an absolute path stay where they are.
+    sums: checksum (CRC-32) of each by its path in `scene/`, or its absolute path.
     """
 
     def __init__(self, scene, named):
@@ -129,8 +135,9 @@ class SceneFiles:
         self.root = Path(os.path.commonpath([one.parent for one in (scene, *beside)]))
         self.copied = [scene, *beside]
         self.scene = str(scene.relative_to(self.root))
-        sums = [hashlib.sha256(one.read_bytes()).hexdigest() for one in (*self.copied, *sorted({Path(one) for one in named if os.path.isabs(one)}))]
-        self.checksum = hashlib.sha256(" ".join([self.scene, *sums]).encode()).hexdigest()
+        outside = sorted({Path(one) for one in named if os.path.isabs(one)})
+        self.sums = {name: f"{zlib.crc32(one.read_bytes()):08x}" for name, one in sorted(
+            [(str(one.relative_to(self.root)), one) for one in self.copied] + [(str(one), one) for one in outside])}
 
     def copy_into(self, folder):
         for one in self.copied:

@@ -12,4 +12,6 @@ def gather(folder):
     write_whole(folder.path / "sweep.html", sweep_page(folder, cases))
     counts = {state: sum(case.state == state for case in cases) for state in ("done", "failed", "unfinished")}
     parts = [f"{counts['done']} done", f"{counts['failed']} failed"] + ([f"{counts['unfinished']} unfinished"] if counts["unfinished"] else [])
+    if mixed := [case for case in cases if case.state == "unfinished" and case.reason]:
+        parts.append(f"{len(mixed)} of these left out, the first case {mixed[0].number}: {mixed[0].reason}")
     return f"{len(cases)} cases: {', '.join(parts)}; {', '.join(str(folder.path / name) for name in [*names, 'sweep.html'])}"

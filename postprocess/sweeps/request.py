@@ -8,6 +8,7 @@ from pathlib import Path
 
 from read_run import RunError
 
+MOST = 100_000  # cases of a sweep
 KINDS = ("grid", "list", "latin-hypercube", "sobol")
 
 
@@ -126,10 +127,10 @@ def scene_of(path, name):
 
 def read_seeds(table):
     seeds = table.values.get("seeds", [])
-    if isinstance(seeds, int) and not isinstance(seeds, bool) and seeds > 0:
+    if isinstance(seeds, int) and not isinstance(seeds, bool) and 0 < seeds <= MOST:
         seeds = list(range(1, seeds + 1))
     if not isinstance(seeds, list) or not all(isinstance(one, int) and not isinstance(one, bool) and one >= 0 for one in seeds) or len(set(seeds)) < len(seeds):
-        table.refuse("'seeds' must be how many, or a list of different whole numbers from 0 up")
+        table.refuse(f"'seeds' must be how many, up to {MOST}, or a list of different whole numbers from 0 up")
     return seeds
 
 

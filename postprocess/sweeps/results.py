@@ -27,6 +27,9 @@ class Case:
     def __init__(self, folder, number, settings):
         self.number, self.settings, self.folder = number, settings, folder.run_of(number)
         self.state, self.reason, self.summary = state_of(self.folder)
+        if self.state != "unfinished" and not is_same(self.folder / "case.txt", folder.identity_of(settings)):
+            self.state, self.summary = "unfinished", {}
+            self.reason = "its folder holds a run with other settings or of other files; --force makes it again"
 
     def quantities(self):
         """The results of a case that is done, by sensor and name: value, spread, unit."""
@@ -37,6 +40,13 @@ class Case:
         for key in path:
             value = value.get(key) if isinstance(value, dict) else None
         return value
+
+
+def is_same(path, text):
+    try:
+        return path.read_text(encoding="utf-8") == text
+    except OSError:
+        return False
 
 
 def state_of(folder):

@@ -71,7 +71,9 @@ def check_complaints(talus, folder):
             ("[vary]\na.b = [1]\n[design]\nkind = 'sobol'\n", "needs a key with a range"),
             ("[vary]\na.b = [1]\na.c = [1, 2]\n[design]\nkind = 'list'\n", "equally long"),
             ("[vary]\na.b = [1]\n[design]\nkinds = 'list'\n", "unknown key 'kinds' in [design]"),
-            ("", "nothing varies"), ("seeds = [1, 1]\n", "different whole numbers"), ("[vary\n", "is no TOML"),
+            ("", "nothing varies"), ("seeds = [1, 1]\n", "different whole numbers"),
+            ("seeds = 1000000000000\n", "up to 100000"),
+            ("seeds = 3\n[vary]\na.b = { from = 1, to = 2, steps = 300 }\na.c = { from = 1, to = 2, steps = 300 }\n", "has 270000 cases; 100000 are allowed"), ("[vary\n", "is no TOML"),
             ("[vary]\ncontact.glass-glass.fricton = [0.1]\n", "did you mean 'friction'")):
         told = call(talus, "sweep", write_sweep(folder, HEAD + text), code=2, cwd=folder)
         assert sentence in told and told.count("\n") == 1, f"instead of '{sentence}': {told}"
@@ -119,7 +121,14 @@ def check_cases(talus, folder):
     cases = (other / "cases.csv").read_text()
     (other / "cases.csv").write_text(cases.replace("1,60,", "1,61,", 1))
     assert "other settings" in call(talus, "run", other, "--case", 1, "--quiet", code=2)
+    assert "1 of these left out, the first case 1" in call(talus, "gather", other)
     call(talus, "run", other, "--case", 1, "--quiet", "--force")
+    assert "left out" not in call(talus, "gather", other)
+    scene = next((other / "scene").glob("*.toml"))
+    text = scene.read_text()
+    scene.write_text(text + "# a word more\n")
+    assert "not what it was when the sweep was made" in call(talus, "run", other, "--case", 2, "--quiet", code=2)
+    scene.write_text(text)
     pair = [subprocess.Popen([talus, "run", other, "--case", "2", "--quiet"], stderr=subprocess.DEVNULL) for _ in range(2)]
     assert [one.wait() for one in pair] == [0, 0], "two that run the same case at once do not both end well"
 

@@ -22,8 +22,9 @@ struct Sweep {
     Sweep()
     {
         fs::create_directories(path / "scene");
-        write("scene/bed.toml", "");
-        write("sweep.json", R"({"version": "1", "scene": "scene/bed.toml", "threads": 3, "reports": false})");
+        write("scene/bed.toml", "seed = 1");
+        write("sweep.json", R"({"version": "1", "scene": "scene/bed.toml", "threads": 3, "reports": false,
+            "files": {"bed.toml": "e2239859"}})");
         write("cases.csv", "case,contact.a-b.friction,title,world.min\n"
                            "1,0.5,bare,\n"
                            "2,,\"\"\"say \"\"yes\"\", no\"\"\",\"[-1, 0, inf]\"\n");
@@ -44,6 +45,7 @@ TEST_CASE("a case of a sweep has the settings of its row, without fields that ar
     CHECK(first.threads == 3);
     CHECK_FALSE(first.report);
     CHECK(first.overrides == std::vector<std::string>{"contact.a-b.friction=0.5", "title=bare"});
+    CHECK(first.identity == "contact.a-b.friction=0.5\ntitle=bare\nbed.toml e2239859\n");
     const SweepCase second = read_sweep_case(sweep.path, 2, "1");
     CHECK(second.overrides == std::vector<std::string>{"title=\"say \"yes\", no\"", "world.min=[-1, 0, inf]"});
 }
@@ -54,6 +56,10 @@ TEST_CASE("a case that cannot be read is refused", "[sweep]")
     CHECK_THROWS_WITH(read_sweep_case(sweep.path, 3, "1"), Catch::Contains("there is no case 3 among its 2"));
     CHECK_THROWS_WITH(read_sweep_case(sweep.path, 1, "2"), Catch::Contains("begun with Talus 1, and this is 2"));
     CHECK_THROWS_WITH(read_sweep_case(sweep.path / "scene", 1, "1"), Catch::Contains("holds no sweep"));
+    sweep.write("scene/bed.toml", "seed = 2");
+    CHECK_THROWS_WITH(read_sweep_case(sweep.path, 1, "1"),
+        Catch::Contains("bed.toml: the file is not what it was when the sweep was made"));
+    sweep.write("scene/bed.toml", "seed = 1");
     sweep.write("cases.csv", "case,a\n1,2,3\n");
     CHECK_THROWS_WITH(
         read_sweep_case(sweep.path, 1, "1"), Catch::Contains("cases.csv:2: the line has 3 fields and the header 2"));
@@ -69,6 +75,8 @@ TEST_CASE("what became of a case is in its folder", "[sweep]")
     CHECK(kept_refusal(folder).empty());
     keep_refusal(folder, "a sentence");
     CHECK(kept_refusal(folder) == "a sentence");
+    keep_identity(folder, "a=1\n");
+    CHECK(kept_identity(folder) == "a=1\n");
     forget_refusal(folder);
     CHECK(kept_refusal(folder).empty());
     sweep.write("cases/0001/summary.json", R"({"status": "done"})");
