@@ -3,6 +3,7 @@
 
 #include "app/system/terminal.hpp"
 #include "app/verbs/forecast.hpp"
+#include "io/run/frames.hpp"
 #include "io/text/input_error.hpp"
 #include "scenarios/builder/checks.hpp"
 #include "scenarios/builder/meshes.hpp"
@@ -89,6 +90,8 @@ void print_contents(const OpenedScene& opened)
     for (std::size_t k = 0; k < model.outlets.size(); ++k)
         print_content(fmt::format("outlet '{}'", scene.outlet[k].name), model.outlets[k].bounds(), d);
     say("world: {}\n", opened.report.world);
+    if (has_64_bit_frames(model))
+        say("frames: places have 64 bits, as 32 lose more than 1e-3 d so far from the origin\n");
 }
 
 /// "12 s", "3.4 min", "5.6 h".

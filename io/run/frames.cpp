@@ -115,7 +115,8 @@ vtkNew<vtkPolyData> particles_of(const Simulation& simulation, const OutputChoic
     const std::vector<std::size_t> shown = shown_spheres(state, output);
     const std::size_t count = shown.size();
     vtkNew<vtkPolyData> geometry;
-    set_points(*geometry, count, [&](std::size_t k) { return state.position[shown[k]]; });
+    set_points(
+        *geometry, count, simulation.model.mean_diameter, [&](std::size_t k) { return state.position[shown[k]]; });
     add_point_cell(*geometry, count);
     add_particle_arrays(*geometry->GetPointData(), output.particle_arrays, simulation, shown);
     return geometry;
@@ -140,8 +141,8 @@ vtkNew<vtkPolyData> contacts_of(const Simulation& simulation, const OutputChoice
     std::vector<ContactLine> lines = loaded_contacts(simulation, output);
     drop_weaker_than(output.contact_threshold, lines);
     vtkNew<vtkPolyData> geometry;
-    set_points(
-        *geometry, 2 * lines.size(), [&](std::size_t p) { return p % 2 == 0 ? lines[p / 2].from : lines[p / 2].to; });
+    set_points(*geometry, 2 * lines.size(), simulation.model.mean_diameter,
+        [&](std::size_t p) { return p % 2 == 0 ? lines[p / 2].from : lines[p / 2].to; });
     vtkNew<vtkCellArray> cells;
     for (vtkIdType first = 0; first < static_cast<vtkIdType>(2 * lines.size()); first += 2)
         cells->InsertNextCell({first, first + 1});
@@ -203,7 +204,7 @@ void FrameWriter::add_walls_frame(Series& series, const Model& model, const Stat
         }
     }
     vtkNew<vtkPolyData> geometry;
-    set_points(*geometry, vertices.size(), [&](std::size_t v) { return vertices[v]; });
+    set_points(*geometry, vertices.size(), model.mean_diameter, [&](std::size_t v) { return vertices[v]; });
     geometry->SetPolys(cells);
     add_integers(
         *geometry->GetCellData(), "wall", wall_of_triangle.size(), [&](std::size_t k) { return wall_of_triangle[k]; });
@@ -242,6 +243,12 @@ void FrameWriter::cut_back(const Series& series) const
     if (error) throw OutputError(fmt::format("{}: cannot be removed: {}", folder_.string(), error.message()));
 }
 
+bool has_64_bit_frames(const Model& model)
+{
+    const Box& box = model.contents;
+    return needs_64_bits(std::max(-box.min.minCoeff(), box.max.maxCoeff()), model.mean_diameter);
+}
+
 void write_lost(const std::filesystem::path& folder, const std::vector<EscapedSphere>& escaped)
 {
     const std::filesystem::path path = folder / "lost.vtp";
@@ -252,7 +259,7 @@ void write_lost(const std::filesystem::path& folder, const std::vector<EscapedSp
     }
     const std::size_t count = escaped.size();
     vtkNew<vtkPolyData> geometry;
-    set_points(*geometry, count, [&](std::size_t k) { return escaped[k].position; });
+    set_points(*geometry, count, 2.0 * escaped.front().radius, [&](std::size_t k) { return escaped[k].position; });
     add_point_cell(*geometry, count);
     vtkPointData& data = *geometry->GetPointData();
     add_integers(data, "id", count, [&](std::size_t k) { return escaped[k].id; });

@@ -14,9 +14,9 @@ class vtkPolyData;
 namespace talus
 {
 
-/// Writes the VTK frames of a run: frames/particles_000123.vtp and so on, appended raw with LZ4, 32-bit floats, and
-/// after each the .pvd that lists them. Every file is replaced atomically, so that a running or killed run opens.
-/// io/README.md lists the arrays.
+/// Writes the VTK frames of a run: frames/particles_000123.vtp and so on, appended raw with LZ4, 32-bit floats (64 bits
+/// for places, where 32 would lose 1e-3 d of them), and after each the .pvd that lists them. Every file is replaced
+/// atomically, so that a running or killed run opens. io/README.md lists the arrays.
 class FrameWriter
 {
 public:
@@ -77,5 +77,8 @@ void write_particles(const Simulation& simulation, const OutputChoice& output, c
 /// Writes lost.vtp into a run's folder: the spheres that escaped, each as it was then. Without any the file is removed.
 /// @throws OutputError
 void write_lost(const std::filesystem::path& folder, const std::vector<EscapedSphere>& escaped);
+
+/// Whether the places in the frames of this scene have 64 bits, as far as it says where things are.
+bool has_64_bit_frames(const Model& model);
 
 } // namespace talus

@@ -10,12 +10,20 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
-/// From our numbers to VTK's arrays: 32-bit floats and integers, as the frames have them.
+/// From our numbers to VTK's arrays: 32-bit floats and integers, as the frames have them; places far from the origin
+/// have 64 bits.
 namespace talus
 {
+
+/// Whether 32 bits lose more than a thousandth of a diameter of places that far from the origin along an axis [m].
+inline bool needs_64_bits(double distance, double diameter)
+{
+    return distance * 0x1p-24 > 1e-3 * diameter;
+}
 
 /// Adds an array of `count` floats, value(i) each.
 void add_floats(vtkDataSetAttributes& data, const char* name, std::size_t count, auto&& value)
@@ -52,10 +60,13 @@ void add_integers(vtkDataSetAttributes& data, const char* name, std::size_t coun
 }
 
 /// Gives a geometry `count` points, place(i) each.
-void set_points(vtkPolyData& geometry, std::size_t count, auto&& place)
+/// @param diameter of the spheres, mean [m]
+void set_points(vtkPolyData& geometry, std::size_t count, double diameter, auto&& place)
 {
+    double distance = 0.0;
+    for (std::size_t i = 0; i < count; ++i) distance = std::max(distance, Vec3(place(i)).cwiseAbs().maxCoeff());
     vtkNew<vtkPoints> points;
-    points->SetDataTypeToFloat();
+    points->SetDataType(needs_64_bits(distance, diameter) ? VTK_DOUBLE : VTK_FLOAT);
     points->SetNumberOfPoints(static_cast<vtkIdType>(count));
     for (std::size_t i = 0; i < count; ++i) points->SetPoint(static_cast<vtkIdType>(i), Vec3(place(i)).data());
     geometry.SetPoints(points);

@@ -50,6 +50,7 @@ Simulation stack_of_two()
     Simulation simulation;
     simulation.model.materials = {{{"glass", 2500.0}}, {ContactLaw{.friction = 0.5}}};
     simulation.model.time_step = 1e-3;
+    simulation.model.mean_diameter = 1.0;
     simulation.model.world = {Vec3(-1, -1, -1), Vec3(1, 1, infinity)};
     simulation.model.walls = {{"lid", Plane{}, 0, 0.0, 0.5}, {"floor", Plane{}, 0, 0.0, infinity}};
     State& state = simulation.state;
@@ -184,6 +185,21 @@ TEST_CASE("a region leaves out the spheres and contacts beside it", "[frames]")
     const auto contacts = read_frame(folder.path() / "frames/contacts_000000.vtp");
     REQUIRE(contacts->GetNumberOfCells() == 1);
     CHECK(value(contacts->GetCellData(), "id_b", 0) == 1);
+}
+
+TEST_CASE("far from the origin places keep a thousandth of a diameter, and near it 32 bits", "[frames]")
+{
+    const SceneFolder folder;
+    const double far = GENERATE(0.0, 1e3, 1e5, 4634210.0);
+    Simulation simulation = stack_of_two();
+    for (Vec3& x : simulation.state.position) x += Vec3(0.1, far, 0.1);
+    FrameWriter(folder.path()).write_particles(simulation);
+    const auto frame = read_frame(folder.path() / "frames/particles_000000.vtp");
+    CHECK(frame->GetPoints()->GetDataType() == (far > 20000 ? VTK_DOUBLE : VTK_FLOAT));
+    for (vtkIdType k = 0; k < 2; ++k) {
+        const Vec3 place(frame->GetPoint(k));
+        CHECK((place - simulation.state.position[static_cast<std::size_t>(1 - k)]).norm() < 2e-3);
+    }
 }
 
 TEST_CASE("a wall frame has the walls that stand at its time", "[frames]")
