@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/command_line.hpp"
 
+#include "app/system/threads.hpp"
+
 #include "io/text/quantity.hpp"
 
 #include <CLI/CLI.hpp>
@@ -78,7 +80,7 @@ void add_threads_option(CLI::App& verb, CommandLine& line)
 {
     verb.add_option("--threads", line.threads, "Threads [all cores]; they do not change the results")
         ->type_name("N")
-        ->check(CLI::Range(1, 1024));
+        ->check(CLI::Range(1, most_threads));
 }
 
 CLI::Option* add_quiet_flag(CLI::App& verb, CommandLine& line)
@@ -304,7 +306,7 @@ void add_study(CLI::App& app, CommandLine& line)
     verb->add_flag("--force", line.force, "Begin anew where the folder holds a study");
     verb->add_option("--threads", line.threads, "Runs at a time, each on one thread [all cores]")
         ->type_name("N")
-        ->check(CLI::Range(1, 1024));
+        ->check(CLI::Range(1, most_threads));
     add_quiet_flag(*verb, line);
     verb->footer("Example: talus study hopper --set fill.0.count=2000\n"
                  "A study that was stopped goes on when the same command is given again.");
@@ -377,7 +379,7 @@ void add_pool_options(CLI::App& verb, CommandLine& line, const char* folder)
     verb.add_option("-o,--out", line.out, folder)->type_name("DIR")->take_last()->check(not_empty);
     verb.add_option("--jobs", line.jobs, "Run the cases here, so many at a time [none]")
         ->type_name("N")
-        ->check(CLI::Range(1, 1024));
+        ->check(CLI::Range(1, most_threads));
     verb.add_flag("--force", line.force, "Begin anew where the folder holds another one");
     add_quiet_flag(verb, line);
 }

@@ -2,6 +2,7 @@
 #include "app/command_line.hpp"
 #include "app/loop/open_scene.hpp"
 #include "app/system/last_words.hpp"
+#include "app/system/signals.hpp"
 #include "app/system/terminal.hpp"
 #include "app/verbs/check_scene.hpp"
 #include "app/verbs/dump_step.hpp"
@@ -16,6 +17,7 @@
 #include "io/text/input_error.hpp"
 
 #include <cstdlib>
+#include <filesystem>
 #include <new>
 
 #include <malloc.h>
@@ -115,6 +117,8 @@ ExitCode execute_guarded(int argc, const char* const* argv)
         return fail(ExitCode::input, error.what());
     } catch (const OutputError& error) {
         return fail(ExitCode::output, fmt::format("{}{}", error.what(), way_on()));
+    } catch (const std::filesystem::filesystem_error& error) { // of a name that cannot be looked at
+        return fail(ExitCode::input, fmt::format("{}: {}{}", error.path1().string(), error.code().message(), way_on()));
     } catch (const std::bad_alloc&) {
         return fail(ExitCode::internal, fmt::format("talus: there is not enough memory{}", way_on()));
     } catch (const std::exception& error) {
@@ -128,6 +132,7 @@ ExitCode execute_guarded(int argc, const char* const* argv)
 
 int main(int argc, char** argv)
 {
+    talus::survive_signals();
     talus::restart_with_own_settings(argv);
     talus::keep_freed_memory();
     talus::catch_crashes();

@@ -137,6 +137,9 @@ def main():
     except RunError as error:
         print(f"watch.py: {error}", file=sys.stderr)
         sys.exit(2)
+    except OSError as error:
+        print(f"watch.py: {error.filename}: {error.strerror}.", file=sys.stderr)
+        sys.exit(4)
     token = secrets.token_urlsafe(16)
     try:
         server = ThreadingHTTPServer(("127.0.0.1", 0), handler_for(watched, token))

@@ -2,6 +2,7 @@
 #include "app/python/session.hpp"
 
 #include "app/loop/run_report.hpp"
+#include "app/system/threads.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/summary.hpp"
 #include "io/text/input_error.hpp"
@@ -24,8 +25,6 @@ namespace
 
 namespace fs = std::filesystem;
 namespace py = pybind11;
-
-constexpr int most_threads = 1024;
 
 /// Asks Python now and then whether Ctrl-C was pressed: not after every step, for other threads may hold its lock.
 class CtrlC

@@ -47,6 +47,11 @@ bool is_ignored(int signal)
 
 } // namespace
 
+void survive_signals()
+{
+    for (const int signal : {SIGUSR1, SIGXFSZ}) set_handler(signal, SIG_IGN);
+}
+
 void catch_signals()
 {
     for (const int signal : {SIGINT, SIGTERM, SIGXCPU}) set_handler(signal, handle_stop);

@@ -5,13 +5,12 @@
 #include "app/loop/progress.hpp"
 #include "app/system/phase_clock.hpp"
 #include "app/system/terminal.hpp"
+#include "app/system/threads.hpp"
 #include "core/solver/gauss_seidel.hpp"
 #include "core/solver/step_problem.hpp"
 #include "io/problem/fclib_problem.hpp"
 #include "io/run/run_files.hpp"
 #include "scenarios/builder/checks.hpp"
-
-#include <omp.h>
 
 namespace talus
 {
@@ -78,7 +77,7 @@ ExitCode dump_step(const CommandLine& line)
                         "'duration' with --set time.duration=",
                 line.at, opened.scene.time.duration));
     require_writable(line.out, line.force, inputs_of(opened));
-    if (line.threads > 0) omp_set_num_threads(line.threads);
+    use_threads(line.threads);
     Simulation& simulation = opened.simulation;
     simulation.duration = line.at; // as far as the progress line goes
     const StepReport last = step_until(simulation, line.at, line.verbosity);

@@ -36,7 +36,7 @@ void new_scene(const CommandLine& line)
 
     const auto files = copies(scene, original);
     for (const auto& [copy, from] : files)
-        if (fs::exists(fs::symlink_status(copy)))
+        if (std::error_code error; fs::exists(fs::symlink_status(copy, error)))
             throw InputError(fmt::format("{}: the file is there already; choose another name", copy.string()));
     for (const auto& [copy, from] : files) {
         require_writable(copy, false);

@@ -7,6 +7,7 @@
 #include "app/system/own_files.hpp"
 #include "app/system/script.hpp"
 #include "app/system/signals.hpp"
+#include "app/system/threads.hpp"
 #include "app/verbs/check_scene.hpp"
 #include "app/verbs/run_page.hpp"
 #include "core/step/relaxation.hpp"
@@ -132,8 +133,7 @@ fs::path scene_of_run(const fs::path& folder)
     const fs::path scene = folder / "scene.resolved.toml";
     std::error_code error;
     if (!fs::is_directory(folder, error)) throw InputError(fmt::format("{}: there is no such folder", folder.string()));
-    if (!fs::exists(scene, error))
-        throw InputError(fmt::format("{}: the folder holds no run of Talus", folder.string()));
+    if (!fs::exists(scene)) throw InputError(fmt::format("{}: the folder holds no run of Talus", folder.string()));
     return scene;
 }
 
@@ -158,7 +158,7 @@ ExitCode run_scene(const CommandLine& line)
 
 ExitCode run_opened(OpenedScene opened, const CommandLine& line)
 {
-    if (line.threads > 0) omp_set_num_threads(line.threads);
+    use_threads(line.threads);
     const fs::path folder = line.out.empty() ? fs::path("out") / opened.name : line.out;
     const auto files = named_files(opened.scene);
     FolderLock lock =
@@ -188,7 +188,7 @@ ExitCode resume_run(const CommandLine& line)
     FolderLock lock(line.out);
     warn_unless_protected(lock);
     Checkpoint checkpoint = read_checkpoint(line.out, TALUS_VERSION);
-    if (line.threads > 0) omp_set_num_threads(line.threads);
+    use_threads(line.threads);
     try {
         Archive archive(std::move(checkpoint.state));
         RunOrigin origin;

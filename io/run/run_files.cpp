@@ -188,8 +188,10 @@ void require_writable(const fs::path& path, bool force, const std::vector<fs::pa
     for (const fs::path& input : inputs)
         if (fs::equivalent(path, input, none))
             throw InputError(fmt::format("{}: this file is read, and is not replaced; name another", path.string()));
-    if (fs::is_directory(path)) refuse_output(path, std::strerror(EISDIR));
-    if (fs::is_regular_file(path) && !force)
+    const fs::file_status status = fs::status(path, none);
+    if (!fs::status_known(status)) refuse_output(path, none.message());
+    if (fs::is_directory(status)) refuse_output(path, std::strerror(EISDIR));
+    if (fs::is_regular_file(status) && !force)
         throw InputError(fmt::format("{}: the file is there already; --force replaces it", path.string()));
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (::access(folder.c_str(), W_OK | X_OK) != 0) refuse_output(path, std::strerror(errno));

@@ -280,6 +280,11 @@ const std::vector<Situation> situations = {
         "mkdir out; echo process 1 on farm > out/talus.lock; exec 9< out/talus.lock; flock 9", run},
     {"a folder that cannot be made", "touch file", "run scene.toml -o file/out"},
     {"a log file that cannot be written", "", run + " --log-file nowhere/log"},
+    {"a name that is too long", "name=$(printf 'a%.0s' $(seq 300))", "check $name"},
+    {"an output folder whose name is too long", "name=$(printf 'a%.0s' $(seq 300))", "run scene.toml --quiet -o $name"},
+    {"a dump to a name that is too long", "name=$(printf 'a%.0s' $(seq 300))", "dump scene.toml --at 0.01 -o $name"},
+    {"more threads than memory allows", "ulimit -v 1500000", "run scene.toml -o out --quiet --threads 1000"},
+    {"a limit on the size of files, by its signal", "ulimit -f 16", run + " --set time.metrics_interval=1e-4"},
     {"a disk that is full", "trap \"\" XFSZ; ulimit -f 16", run + " --set time.metrics_interval=1e-4"},
     {"a log file that is a scene", "", run + " --log-file scene.toml"},
     {"a dump in place of a scene", "", "dump scene.toml --at 0.02 -o scene.toml"},
@@ -314,6 +319,7 @@ std::string in_table(std::string text, const Workplace& place)
     return table_cell(
         as_shown(text, {{"neither a file nor one of .*", "neither a file nor one of …"},
                            {"none of those that come with Talus: .*", "none of those that come with Talus: …"},
+                           {"a{300}", "a…"}, {"gives this process [0-9]*:", "gives this process …:"},
                            {R"(is at \(.*\) m with .* m/s)", "is at (…) m with … m/s"},
                            {R"(by [^ ]* m at \([^)]*\) m)", "by … m at (…) m"}}));
 }
