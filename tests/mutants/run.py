@@ -4,9 +4,11 @@
 
     tests/mutants/run.py [WORD…]        with words only the mutants whose name has one of them
 
-The copy lies in build/mutants and is built like the default tests; a mutant takes some minutes. mutants.toml lists the
-bugs: a file, a text that stands there once, and what is put in its place. What comes out is written to
-tests/results/mutants.md after each; rows of mutants that are not asked for stay there as they are.
+The copy lies in build/mutants and is built like the default tests; a mutant takes some minutes, one in a script, which
+needs no build, about one. mutants.toml lists the bugs: a file, a text that stands there once, and what is put in its
+place. What comes out is written to tests/results/mutants.md after each; rows of mutants that are not asked for stay
+there as they are. Without words, those that were put into this very commit are left out: a run that was broken off goes
+on where it was.
 
 Exit codes: 0 every mutant was seen, 1 one was not, 2 there is nothing to learn: a text is not there once, something
 cannot be built, or a test fails without any mutant.
@@ -25,6 +27,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 COPY = ROOT / "build" / "mutants"
 PAGE = ROOT / "tests" / "results" / "mutants.md"
 TESTS = ["core", "physics", "scenarios", "io", "app", "validation"]
+OF_SCRIPTS = ["validation_analysis", "references", "gate_verdicts", "plot", "render_run", "render", "export", "paraview", "report_run",
+              "report", "viewer", "sweep", "sweep_parallel", "calibration", "sweep_page", "python", "notebook", "decks", "site"]
 
 
 def give_up(sentence):
@@ -69,10 +73,7 @@ def killer(room):
     A test that fails must fail again alone: on a busy machine one may fail for lack of time.
     """
     for test in sorted(TESTS, key=lambda name: name != room):
-        build = subprocess.run(["ninja", "-C", COPY / "build", "-j", str(os.cpu_count()), f"test_{test}"],
-                               capture_output=True, text=True)
-        if build.returncode != 0:
-            give_up(f"it cannot be built:\n{build.stdout[-3000:]}")
+        build(f"test_{test}")
         for _ in range(3):
             name = first_failure(test, "~[slow]")
             if name is None:
@@ -80,6 +81,23 @@ def killer(room):
             if first_failure(test, re.sub(r"([,\[\\])", r"\\\1", name)):
                 return f"`{test}`: {name}"
     return None
+
+
+def build(*targets):
+    built = subprocess.run(["ninja", "-C", COPY / "build", "-j", str(os.cpu_count()), *targets], capture_output=True, text=True)
+    if built.returncode != 0:
+        give_up(f"it cannot be built:\n{built.stdout[-3000:]}")
+
+
+def failing_script_test():
+    """The first test of scripts that fails, or nothing."""
+    names = "|".join(OF_SCRIPTS)
+    output = subprocess.run(["ctest", "--test-dir", COPY / "build", "-R", f"^({names})$", "--stop-on-failure", "-j", "2"],
+                            capture_output=True, text=True, errors="replace")
+    if output.returncode == 0:
+        return None
+    failed = re.findall(r"Test +#\d+: (\w+) \.*\*+Failed", output.stdout)
+    return f"ctest: {failed[0]}" if failed else give_up(output.stdout[-2000:])
 
 
 def write_page(mutants, rows):
@@ -94,6 +112,17 @@ def write_page(mutants, rows):
     PAGE.write_text(head + begin + "\n".join(table) + "\n" + rest[rest.index(end):])
 
 
+def is_script(file):
+    return not file.endswith((".cpp", ".hpp"))
+
+
+def is_asked_for(name, words, commit):
+    if words:
+        return any(word in name for word in words)
+    return not any(line.startswith(f"| {name} |") and f"| {commit} |" in line and "SURVIVES" not in line
+                   for line in PAGE.read_text().split("\n"))
+
+
 def main():
     mutants = tomllib.loads((pathlib.Path(__file__).parent / "mutants.toml").read_text())["mutant"]
     words = sys.argv[1:]
@@ -104,17 +133,19 @@ def main():
         count = (COPY / mutant["file"]).read_text().count(mutant["old"])
         if count != 1:
             give_up(f"{mutant['name']}: its text stands {count} times in {mutant['file']}")
-    if failing := killer("core"):
+    asked = [mutant for mutant in mutants if is_asked_for(mutant["name"], words, commit)]
+    in_script = [mutant["name"] for mutant in asked if is_script(mutant["file"])]
+    if in_script:
+        build("talus", "talus_python")
+    if failing := (failing_script_test() if in_script else None) or (killer("core") if len(in_script) < len(asked) else None):
         give_up(f"without any mutant a test fails: {failing}")
 
     rows = {}
-    for mutant in mutants:
+    for mutant in asked:
         name, path = mutant["name"], COPY / mutant["file"]
-        if words and not any(word in name for word in words):
-            continue
         text = path.read_text()
         path.write_text(text.replace(mutant["old"], mutant["new"]))
-        seen = killer(mutant["file"].split("/")[0])
+        seen = failing_script_test() if name in in_script else killer(mutant["file"].split("/")[0])
         path.write_text(text)
         print(f"{name}: {seen or 'SURVIVES'}", flush=True)
         rows[name] = f"| {name} | {seen or 'SURVIVES'} | {commit} | {datetime.date.today().isoformat()} |"
