@@ -177,10 +177,11 @@ void ErrorLooks::before_step(const Simulation& simulation)
 {
     copy_.reset();
     const std::int64_t step = simulation.state.steps;
-    if (part_ == 0) {
-        const double steps = (simulation.duration - simulation.state.time) / simulation.model.time_step;
-        const double part = std::max(steps / (parts_per_share * share_), least_cost_of_look / share_);
+    if (planned_share_ != share_) { // at the beginning, or where a resumed run is looked at more or less closely
+        const double length = (simulation.duration - simulation.state.time) / simulation.model.time_step;
+        const double part = std::max(length / (parts_per_share * share_), least_cost_of_look / share_);
         part_ = static_cast<std::int64_t>(std::clamp(part, 1.0, 1e9));
+        planned_share_ = share_;
         begin_part(step);
     }
     if (step == begin_ + part_) begin_part(step);

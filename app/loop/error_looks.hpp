@@ -82,8 +82,8 @@ public:
     /// @pre no look is open
     void persist(Archive& archive)
     {
-        archive(looks_, latest_, made_, part_, begin_, next_, parts_, spent_, cost_, recent_looks_, recent_steps_,
-            contacts_);
+        archive(looks_, latest_, made_, planned_share_, part_, begin_, next_, parts_, spent_, cost_, recent_looks_,
+            recent_steps_, contacts_);
     }
 
 private:
@@ -91,6 +91,7 @@ private:
     std::vector<ErrorLook> looks_; ///< one of each part that is over, but for those without contacts
     ErrorLook latest_;
     std::int64_t made_ = 0;
+    double planned_share_ = 0.0;       ///< for which the parts were chosen
     std::int64_t part_ = 0;            ///< length of a part of the run [steps]; 0: not known yet
     std::int64_t begin_ = 0;           ///< of the part that goes on [steps]
     std::int64_t next_ = 0;            ///< step to look at

@@ -34,11 +34,21 @@ ExitCode export_run(const CommandLine& line, FrameFormat format)
     return ExitCode::done;
 }
 
+/// @throws InputError where one of the files would be replaced with what an export has in the folder
+void require_outside(const fs::path& folder, const std::vector<fs::path>& inputs)
+{
+    for (const fs::path& input : inputs)
+        if (std::error_code error; fs::equivalent(folder / input.filename(), input, error))
+            throw InputError(fmt::format(
+                "{}: the deck is made from this file; choose another folder than its own with -o", input.string()));
+}
+
 ExitCode export_scene(const CommandLine& line, DeckProgram program)
 {
     const OpenedScene opened = open_scene(line);
     const std::string name = program_name(program);
     const fs::path folder = line.out.empty() ? fs::path("out") / fmt::format("{}-{}", opened.name, name) : line.out;
+    require_outside(folder, inputs_of(opened));
     const ExportNotes notes =
         export_deck(opened.scene, opened.simulation, {program, opened.name, TALUS_VERSION}, folder, line.force);
     say_done(line, folder, notes, fmt::format("; to run it: cd {} && {}", folder.string(), deck_command(program)));

@@ -16,7 +16,7 @@ namespace
 
 constexpr std::size_t octants = 8;
 constexpr double rings_per_diameter = 2.0;
-constexpr double cells_per_diameter = 4.0;
+constexpr double cells_per_diameter = 3.0;
 constexpr double most_cells_across = 1024.0; ///< of the grid; of larger heaps it has larger cells
 
 /// What every cell of a square grid round the axis holds of a heap's surface.
@@ -46,18 +46,16 @@ public:
         for (Eigen::Index i = cell(across - reach); i <= cell(across + reach); ++i)
             for (Eigen::Index j = cell(along - reach); j <= cell(along + reach); ++j) {
                 const double square = reach * reach - std::pow(place(i) - across, 2) - std::pow(place(j) - along, 2);
-                if (square > 0.0) height_(i, j) = std::max(height_(i, j), top + std::sqrt(square));
+                const double below = height_(i, j) - top; // how high the surface is already
+                if (square > 0.0 && (below < 0.0 || square > below * below)) height_(i, j) = top + std::sqrt(square);
             }
     }
 
-    /// Calls use(distance from the axis, azimuth in [0, 1], height above the base) for every cell.
+    /// Calls use(place across and along the base from the axis, height above it) for every cell.
     template <typename Use> void for_each_cell(Use&& use) const
     {
         for (Eigen::Index j = 0; j < cells_; ++j)
-            for (Eigen::Index i = 0; i < cells_; ++i) {
-                const double turn = std::atan2(place(j), place(i)) / (2.0 * std::numbers::pi) + 0.5;
-                use(std::hypot(place(i), place(j)), turn, height_(i, j));
-            }
+            for (Eigen::Index i = 0; i < cells_; ++i) use(place(i), place(j), height_(i, j));
     }
 
 private:
@@ -108,8 +106,8 @@ double find_foot(const State& state, const Vec3& base, const Vec3& up)
 std::vector<double> ring_means(const Surface& surface, double ring_width)
 {
     std::vector<MeanAndError> rings;
-    surface.for_each_cell([&](double out, double, double height) {
-        const auto ring = static_cast<std::size_t>(out / ring_width);
+    surface.for_each_cell([&](double across, double along, double height) {
+        const auto ring = static_cast<std::size_t>(std::hypot(across, along) / ring_width);
         if (ring >= rings.size()) rings.resize(ring + 1);
         rings[ring].add(height);
     });
@@ -156,9 +154,11 @@ void Repose::sample(const Snapshot& now)
 
     LineFit flank;
     std::array<LineFit, octants> sides;
-    surface.for_each_cell([&](double out, double turn, double height) {
+    surface.for_each_cell([&](double across, double along, double height) {
+        const double out = std::hypot(across, along);
         if (out < inner || out > outer || height <= 0.0) return; // there is nothing but floor, or not even that
         flank.add(out, height);
+        const double turn = std::atan2(along, across) / (2.0 * std::numbers::pi) + 0.5;
         sides[std::min(octants - 1, static_cast<std::size_t>(turn * octants))].add(out, height);
     });
     angle_ = flank.fall_angle();

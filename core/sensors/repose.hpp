@@ -9,7 +9,7 @@ namespace talus
 {
 
 /// Angle of repose of a heap round an axis through `base`, straight up against gravity. The heap's surface is where a
-/// grain of the mean diameter that is let down meets it. On a grid of a quarter of a diameter, every cell alike, the
+/// grain of the mean diameter that is let down meets it. On a grid of a third of a diameter, every cell alike, the
 /// angle is that of the straight line of height over distance from the axis, between inner_radius and outer_radius;
 /// where those are not given, from 80 % of the heap's height down to 20 %, or to one and a half diameters, where single
 /// grains lie. A heap that is no cone has the slope of its mean over the azimuth.

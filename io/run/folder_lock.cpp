@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -43,10 +45,15 @@ bool is_still_there(const fs::path& path, int descriptor)
 
 enum class Lock { taken, of_another, unknown };
 
+/// Who only looks whether a folder is locked holds it for a moment himself, so it is asked for a few times.
 Lock lock(int descriptor)
 {
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return Lock::taken;
-    return errno == EWOULDBLOCK ? Lock::of_another : Lock::unknown;
+    for (int k = 0;; ++k) {
+        if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return Lock::taken;
+        if (errno != EWOULDBLOCK) return Lock::unknown;
+        if (k == 5) return Lock::of_another;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
 }
 
 [[noreturn]] void refuse_second_owner(const fs::path& folder, const fs::path& lock)
@@ -79,7 +86,10 @@ bool FolderLock::take_file()
         if (file_ >= 0) ::close(file_);
         file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         const Lock of_file = file_ >= 0 ? lock(file_) : Lock::unknown;
-        if (of_file == Lock::of_another) return false;
+        if (of_file == Lock::of_another) {
+            ::close(std::exchange(file_, -1));
+            return false;
+        }
         protects_ = folder_protects_ || of_file == Lock::taken;
         if (file_ < 0) {
             const int failure = errno;

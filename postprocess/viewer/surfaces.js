@@ -53,7 +53,7 @@ export function heapProfile(recording, k, sensor) {
   if (!grains.length) return { places: [], heights: [], line: [], angle: NaN };
   const foot = footOf(grains);
   const half = foot + diameter;
-  const cell = Math.max(diameter / 4, (2 * half) / 1024);
+  const cell = Math.max(diameter / 3, (2 * half) / 1024);
   const count = Math.ceil((2 * half) / cell);
   const surface = new Float64Array(count * count);
   const placeOf = (n) => (n + 0.5) * cell - half;
