@@ -2,7 +2,6 @@
 #include "app/command_line.hpp"
 
 #include "app/system/threads.hpp"
-
 #include "io/text/quantity.hpp"
 
 #include <CLI/CLI.hpp>

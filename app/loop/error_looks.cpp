@@ -12,11 +12,10 @@ namespace talus
 namespace
 {
 
-// A step solved to the end.
 constexpr double exact_tolerance = 1e-12;
 constexpr int most_sweeps = 20000;
 
-/// A copy whose next step is solved to the end, or as far as so many sweeps go.
+/// A copy whose next step is solved to this tolerance, or as far as so many sweeps go.
 Simulation exact_copy(const Simulation& simulation, double tolerance = exact_tolerance, int sweeps = most_sweeps)
 {
     Simulation copy = copy_without_sensors(simulation);

@@ -72,10 +72,10 @@ OpenedScene open_scene(const SceneRequest& request)
     return build_opened(read_scene_as_asked(path, request), path.stem());
 }
 
-std::vector<fs::path> inputs_of(const OpenedScene& opened)
+std::vector<fs::path> inputs_of(const OpenedScene& opened, const std::vector<NamedFile>& named)
 {
     std::vector<fs::path> inputs = {opened.path};
-    for (const NamedFile& file : named_files(opened.scene)) inputs.emplace_back(file.path);
+    for (const NamedFile& file : named) inputs.emplace_back(file.path);
     return inputs;
 }
 

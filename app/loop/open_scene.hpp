@@ -54,7 +54,7 @@ SceneFile read_scene_as_asked(const std::filesystem::path& path, const SceneRequ
 OpenedScene build_opened(SceneFile file, std::string name);
 
 /// The files that a scene was read from: its own, and those that it names.
-std::vector<std::filesystem::path> inputs_of(const OpenedScene& opened);
+std::vector<std::filesystem::path> inputs_of(const OpenedScene& opened, const std::vector<NamedFile>& named);
 
 /// Says so where a folder cannot be kept from others.
 void warn_unless_protected(const FolderLock& lock);

@@ -99,7 +99,7 @@ void Session::write_into(const fs::path& folder, bool force)
 {
     const auto files = named_files(opened_.scene);
     lock_ = std::make_unique<FolderLock>(
-        make_run_folder(folder, resolved_scene(with_copies(opened_.scene, files)), force, inputs_of(opened_)));
+        make_run_folder(folder, resolved_scene(with_copies(opened_.scene, files)), force, inputs_of(opened_, files)));
     copy_files(files, folder);
     loop_ = std::make_unique<RunLoop>(opened_, *lock_, Verbosity::quiet);
 }

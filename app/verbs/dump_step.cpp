@@ -76,7 +76,7 @@ ExitCode dump_step(const CommandLine& line)
             fmt::format("--at {:g} is after the end of the scene, {:g} s: give an earlier time, or a longer "
                         "'duration' with --set time.duration=",
                 line.at, opened.scene.time.duration));
-    require_writable(line.out, line.force, inputs_of(opened));
+    require_writable(line.out, line.force, inputs_of(opened, named_files(opened.scene)));
     use_threads(line.threads);
     Simulation& simulation = opened.simulation;
     simulation.duration = line.at; // as far as the progress line goes

@@ -5,6 +5,7 @@
 #include "app/system/terminal.hpp"
 #include "io/export/deck_export.hpp"
 #include "io/export/frame_export.hpp"
+#include "io/run/run_files.hpp"
 
 namespace talus
 {
@@ -34,11 +35,11 @@ ExitCode export_run(const CommandLine& line, FrameFormat format)
     return ExitCode::done;
 }
 
-/// @throws InputError where one of the files would be replaced with what an export has in the folder
+/// @throws InputError where a file lies in the folder of an export, which might replace it
 void require_outside(const fs::path& folder, const std::vector<fs::path>& inputs)
 {
     for (const fs::path& input : inputs)
-        if (std::error_code error; fs::equivalent(folder / input.filename(), input, error))
+        if (lies_in(folder, input))
             throw InputError(fmt::format(
                 "{}: the deck is made from this file; choose another folder than its own with -o", input.string()));
 }
@@ -48,7 +49,7 @@ ExitCode export_scene(const CommandLine& line, DeckProgram program)
     const OpenedScene opened = open_scene(line);
     const std::string name = program_name(program);
     const fs::path folder = line.out.empty() ? fs::path("out") / fmt::format("{}-{}", opened.name, name) : line.out;
-    require_outside(folder, inputs_of(opened));
+    require_outside(folder, inputs_of(opened, named_files(opened.scene)));
     const ExportNotes notes =
         export_deck(opened.scene, opened.simulation, {program, opened.name, TALUS_VERSION}, folder, line.force);
     say_done(line, folder, notes, fmt::format("; to run it: cd {} && {}", folder.string(), deck_command(program)));

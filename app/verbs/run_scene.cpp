@@ -162,7 +162,7 @@ ExitCode run_opened(OpenedScene opened, const CommandLine& line)
     const fs::path folder = line.out.empty() ? fs::path("out") / opened.name : line.out;
     const auto files = named_files(opened.scene);
     FolderLock lock =
-        make_run_folder(folder, resolved_scene(with_copies(opened.scene, files)), line.force, inputs_of(opened));
+        make_run_folder(folder, resolved_scene(with_copies(opened.scene, files)), line.force, inputs_of(opened, files));
     copy_files(files, folder);
     warn_unless_protected(lock);
     catch_signals();

@@ -72,7 +72,7 @@ FolderLock::FolderLock(const fs::path& folder) : path_(folder / lock_name)
     folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder_ < 0) refuse(folder);
     const Lock of_folder = lock(folder_);
-    folder_protects_ = of_folder == Lock::taken;
+    protects_ = of_folder == Lock::taken;
     if (of_folder == Lock::of_another || !take_file()) {
         close();
         refuse_second_owner(folder, path_);
@@ -90,7 +90,7 @@ bool FolderLock::take_file()
             ::close(std::exchange(file_, -1));
             return false;
         }
-        protects_ = folder_protects_ || of_file == Lock::taken;
+        protects_ = protects_ || of_file == Lock::taken;
         if (file_ < 0) {
             const int failure = errno;
             close();
@@ -122,7 +122,7 @@ void FolderLock::hold()
 
 FolderLock::FolderLock(FolderLock&& other) noexcept
     : path_(std::move(other.path_)), folder_(std::exchange(other.folder_, -1)), file_(std::exchange(other.file_, -1)),
-      protects_(other.protects_), folder_protects_(other.folder_protects_)
+      protects_(other.protects_)
 {
 }
 

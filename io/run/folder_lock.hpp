@@ -44,7 +44,7 @@ private:
     std::filesystem::path path_;
     int folder_ = -1; ///< descriptors; −1: moved from
     int file_ = -1;
-    bool protects_ = true, folder_protects_ = true;
+    bool protects_ = false;
 
     bool take_file();
     void close();

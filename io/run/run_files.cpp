@@ -42,7 +42,7 @@ bool is_output_of_a_run(const std::string& name)
 {
     if (name.starts_with(profile_prefix) && (name.ends_with(".csv") || name.ends_with(".csv.tmp"))) return true;
     constexpr std::array<std::string_view, 6> files = {
-        "metrics.csv", "summary.json", "lost.vtp", "report.html", "case.txt", marker};
+        "metrics.csv", "summary.json", "lost.vtp", "report.html", case_file, marker};
     constexpr std::array<std::string_view, 5> series = {"particles", "contacts", "walls", "moving_walls", "checkpoint"};
     for (const std::string_view file : files)
         if (name == file || name == fmt::format("{}.tmp", file)) return true;
@@ -82,15 +82,11 @@ void require_usable(const fs::path& folder, bool force)
 /// @throws InputError where a run in the folder would replace what it is made from
 void require_inputs_kept(const fs::path& folder, const std::vector<fs::path>& inputs)
 {
-    std::error_code error;
-    const fs::path root = fs::weakly_canonical(folder, error);
-    for (const fs::path& input : inputs) {
-        const fs::path place = fs::weakly_canonical(input, error).parent_path();
-        if ((place == root || place == root / "frames") && is_output_of_a_run(input.filename()))
+    for (const fs::path& input : inputs)
+        if ((lies_in(folder, input) || lies_in(folder / "frames", input)) && is_output_of_a_run(input.filename()))
             throw InputError(
                 fmt::format("{}: the run is made from this file, and would replace it; choose another folder with -o",
                     input.string()));
-    }
 }
 
 /// Removes what a run wrote, and nothing else: a user may keep notes and pictures beside it. What says that the run is
@@ -103,7 +99,7 @@ void remove_run(const fs::path& folder)
         fs::remove(path, removal);
         if (removal) refuse_output(path, removal.message());
     };
-    for (const char* first : {"case.txt", "summary.json", "checkpoint.latest", "checkpoint.previous"})
+    for (const char* first : {case_file, "summary.json", "checkpoint.latest", "checkpoint.previous"})
         remove(folder / first);
     std::error_code error;
     for (const fs::path& place : {folder / "frames", folder}) {
@@ -195,6 +191,12 @@ void require_writable(const fs::path& path, bool force, const std::vector<fs::pa
         throw InputError(fmt::format("{}: the file is there already; --force replaces it", path.string()));
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (::access(folder.c_str(), W_OK | X_OK) != 0) refuse_output(path, std::strerror(errno));
+}
+
+bool lies_in(const fs::path& folder, const fs::path& file)
+{
+    std::error_code error;
+    return fs::weakly_canonical(file, error).parent_path() == fs::weakly_canonical(folder, error);
 }
 
 bool is_of_others(const fs::path& path, std::string_view mark)

@@ -16,6 +16,9 @@
 namespace talus
 {
 
+/// In the folder of a run that is a case of a sweep: which case it is (sweep_cases.hpp).
+inline constexpr const char* case_file = "case.txt";
+
 /// Makes the output folder of a run, takes possession of it, and marks it as Talus's own by writing
 /// scene.resolved.toml into it first.
 /// @param force replace the files of a run of Talus that the folder holds (others in it stay); a non-empty folder
@@ -36,6 +39,9 @@ void copy_files(const std::vector<NamedFile>& files, const std::filesystem::path
 /// folder is not there or may not be written
 void require_writable(
     const std::filesystem::path& path, bool force, const std::vector<std::filesystem::path>& inputs = {});
+
+/// Whether a file lies in that very folder, whatever way leads to either.
+bool lies_in(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 /// Whether something is there that has no such mark in its first thousand bytes, as all that Talus writes there has.
 bool is_of_others(const std::filesystem::path& path, std::string_view mark);

@@ -20,7 +20,6 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* refusal = "refused.txt";
-constexpr const char* identity_file = "case.txt";
 
 std::string text_of(const fs::path& path)
 {
@@ -130,12 +129,12 @@ void keep_identity(const fs::path& folder, const std::string& identity)
 {
     std::error_code error;
     fs::create_directories(folder, error);
-    write_atomically(folder / identity_file, identity);
+    write_atomically(folder / case_file, identity);
 }
 
 std::string kept_identity(const fs::path& folder)
 {
-    return text_of(folder / identity_file);
+    return text_of(folder / case_file);
 }
 
 void keep_refusal(const fs::path& folder, const std::string& sentence)

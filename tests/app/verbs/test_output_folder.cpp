@@ -69,10 +69,13 @@ TEST_CASE(
 namespace
 {
 
-/// A run that goes on until it is told to stop, and what comes to its folder meanwhile. Returns what they said.
-Outcome while_it_runs(const Workplace& place, const std::string& commands, const std::string& arguments)
+/// A run into `out` that goes on until it is told to stop, and what comes to its folder meanwhile. Returns what they
+/// said.
+Outcome while_it_runs(
+    const Workplace& place, const std::string& commands, const std::string& settings = "--set checkpoint.interval=0.1")
 {
-    return place.shell("$TALUS " + arguments +
+    place.write("scene.toml", replaced(beads_in_a_box, "duration = 0.05", "duration = 1e4"));
+    return place.shell("$TALUS run scene.toml -o out --threads 1 " + settings +
                        " --quiet & pid=$!; echo $pid > pid; until [ -e out/talus.lock ]; do sleep "
                        "0.005; done; sleep 0.2; " +
                        commands + "; kill -INT $pid; wait $pid");
@@ -83,11 +86,9 @@ Outcome while_it_runs(const Workplace& place, const std::string& commands, const
 TEST_CASE("a folder has one owner; who comes second reads who that is, and changes nothing", "[app][output]")
 {
     const Workplace place;
-    place.write("scene.toml", replaced(beads_in_a_box, "duration = 0.05", "duration = 1e4"));
     const Outcome outcome = while_it_runs(place,
         "$TALUS resume out; echo $?; $TALUS run scene.toml -o out; echo $?; $TALUS run scene.toml -o out --force; echo "
-        "$?",
-        "run scene.toml -o out --threads 1 --set checkpoint.interval=0.1");
+        "$?");
     CHECK(outcome.exit_code == 128 + 2);
     CHECK(outcome.out == "2\n2\n2\n");
     const std::string owner = "out: process " + replaced(place.read("pid"), "\n", "") + " on ";
@@ -104,11 +105,9 @@ TEST_CASE("a folder has one owner; who comes second reads who that is, and chang
 TEST_CASE("a folder has its owner though its lock file is removed, and gets the file back", "[app][output]")
 {
     const Workplace place;
-    place.write("scene.toml", replaced(beads_in_a_box, "duration = 0.05", "duration = 1e4"));
     const Outcome outcome = while_it_runs(place,
         "rm out/talus.lock; $TALUS resume out; echo $?; $TALUS run scene.toml -o out --force; echo $?; sleep 0.3; cat "
-        "out/talus.lock",
-        "run scene.toml -o out --threads 1 --set checkpoint.interval=0.1");
+        "out/talus.lock");
     CHECK(outcome.exit_code == 128 + 2);
     CHECK(outcome.out.substr(0, 4) == "2\n2\n");
     CHECK_THAT(outcome.out, Contains("process " + replaced(place.read("pid"), "\n", "") + " on "));
@@ -120,9 +119,8 @@ TEST_CASE("a folder has its owner though its lock file is removed, and gets the 
 TEST_CASE("a run stops where its folder is taken away, and leaves another that stands there alone", "[app][output]")
 {
     const Workplace place;
-    place.write("scene.toml", replaced(beads_in_a_box, "duration = 0.05", "duration = 1e4"));
     const Outcome outcome = while_it_runs(place, "mv out away; mkdir out; sleep 0.5",
-        "run scene.toml -o out --threads 1 --set checkpoint.interval=5 --set time.frame_interval=5 --set "
+        "--set checkpoint.interval=5 --set time.frame_interval=5 --set "
         "time.metrics_interval=5");
     CHECK(outcome.exit_code == 4);
     CHECK_THAT(outcome.err, Contains("out: the folder was removed or moved"));
@@ -154,9 +152,7 @@ TEST_CASE("--force replaces no file that the run is made from", "[app][output]")
 TEST_CASE("what was killed owns its folder no more", "[app][output]")
 {
     const Workplace place;
-    place.write("scene.toml", replaced(beads_in_a_box, "duration = 0.05", "duration = 1e4"));
-    const Outcome killed =
-        while_it_runs(place, "kill -9 $pid", "run scene.toml -o out --threads 1 --set checkpoint.interval=0.1");
+    const Outcome killed = while_it_runs(place, "kill -9 $pid");
     REQUIRE(place.exists("out/talus.lock"));
     CHECK(place.talus("run scene.toml -o out --force --quiet --until 0.02").exit_code == 0);
     CHECK_FALSE(place.exists("out/talus.lock"));
