@@ -104,6 +104,17 @@ std::unique_ptr<ScriptBeside> watch_beside(const CommandLine& line, const fs::pa
     }
 }
 
+/// Runs to the end. What cannot be written since the folder has gone meanwhile says so, whichever file it is.
+RunEnd run_in_its_folder(RunLoop& loop, FolderLock& lock)
+{
+    try {
+        return loop.run();
+    } catch (const OutputError&) {
+        lock.hold();
+        throw;
+    }
+}
+
 /// Runs what is ready to run, writes summary.json and tells how it went. The page comes last: it takes seconds, and
 /// whoever does not want to wait for it ends the program with a second Ctrl-C.
 ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const CommandLine& line, FolderLock& lock)
@@ -111,7 +122,7 @@ ExitCode run_to_end(const OpenedScene& opened, RunLoop& loop, const CommandLine&
     const fs::path folder = lock.folder();
     if (line.error_estimate) loop.estimate_error();
     const auto watcher = watch_beside(line, folder);
-    const RunEnd end = loop.run();
+    const RunEnd end = run_in_its_folder(loop, lock);
     const RunSummary summary = summarise(opened, loop.statistics(), loop.clock(), end.incidents);
     lock.hold();
     write_summary(folder / "summary.json", summary);

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -20,6 +21,9 @@ void check_readme_table(const std::string& name, const std::string& table)
     const std::string now = text.substr(0, from + begin.size()) + table + text.substr(to);
     const bool update = std::getenv("TALUS_UPDATE_TABLES") != nullptr;
     if (update) std::ofstream(path) << now;
+    const auto [seen, written] = std::mismatch(now.begin(), now.end(), text.begin(), text.end());
+    INFO("the table differs from " << std::string(seen, now.end()).substr(0, 300) << "\nwhere the file has "
+                                   << std::string(written, text.end()).substr(0, 300));
     CHECK((update || now == text)); // else: TALUS_UPDATE_TABLES=1 build/test_app "[NAME]"
 }
 
