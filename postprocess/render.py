@@ -261,7 +261,9 @@ def strongest_chain(run):
     """The force of the thickest chains of a run [N]."""
     forces = [vtk_to_numpy(some_contacts(contacts, None).GetCellData().GetArray("normal_force"))
               for contacts in surveyed(run.frames("contacts")) if contacts.GetNumberOfCells()]
-    return round_up(float(numpy.quantile(numpy.concatenate(forces), CHAIN_SHARE))) if forces else 1.0
+    pressing = numpy.concatenate(forces or [numpy.empty(0)])
+    pressing = pressing[pressing > 0.0]  # attraction may hold others that are pulled apart
+    return round_up(float(numpy.quantile(pressing, CHAIN_SHARE))) if len(pressing) else 1.0
 
 
 def common_setting(run, frames, arguments):

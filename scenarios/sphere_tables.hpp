@@ -18,12 +18,47 @@ struct MaterialTable {
     static void describe(auto& self, auto&& key) { key("density", self.density, above(0.0), "kg/m3", "of the solid"); }
 };
 
+/// What draws two materials together from when they touch.
+struct CohesionTable {
+    std::string law = "none";
+    double force = 0.0;
+    double work_of_adhesion = 0.0;
+    double bond_number = 0.0;
+    double surface_tension = 0.0;
+    double contact_angle = 0.0;
+    double volume = 0.0;
+    double range = 0.0;
+
+    static void describe(auto& self, auto&& key)
+    {
+        key("law", self.law, deciding(one_of({"none", "constant", "dmt", "jkr", "liquid", "bond_number"})), "",
+            "of the force with which two draw each other, from when they touch until they are out of range");
+        key("force", self.force, required(only_for({"constant"}, at_least(0.0))), "N",
+            "the force; here and below 0 leaves it out");
+        key("work_of_adhesion", self.work_of_adhesion, required(only_for({"dmt", "jkr"}, at_least(0.0))), "J/m2",
+            "w: the force is 2 pi w R* (dmt) or 3/2 pi w R* (jkr, the pull-off force alone); w is twice the surface "
+            "energy of two equal surfaces");
+        key("bond_number", self.bond_number, required(only_for({"bond_number"}, at_least(0.0))), "",
+            "the force / the weight of the lighter sphere");
+        key("surface_tension", self.surface_tension, required(only_for({"liquid"}, at_least(0.0))), "N/m",
+            "of the liquid: the force is 4 pi R* surface_tension cos(contact_angle), and falls with the gap");
+        key("contact_angle", self.contact_angle, only_for({"liquid"}, talus::scene::between(0.0, 1.5)), "rad",
+            "of the liquid on the surfaces");
+        key("volume", self.volume, required(only_for({"liquid"}, above(0.0))), "m3",
+            "of one bridge, which breaks at a gap of (1 + contact_angle / 2) volume^(1/3)");
+        key("range", self.range, only_for({"constant", "dmt", "jkr", "bond_number"}, at_least(0.0)), "m",
+            "up to which gap the force holds; 0: a hundredth of the mean diameter");
+    }
+};
+
 struct ContactTable {
     std::vector<std::string> between; ///< two materials
     double friction = 0.5;
     double restitution = 0.0;
     double rolling_friction = 0.0;
     double stiffness = infinity;
+    double twisting_friction = 0.0;
+    CohesionTable cohesion = {};
 
     static void describe(auto& self, auto&& key)
     {
@@ -33,8 +68,11 @@ struct ContactTable {
             "Newton's coefficient: rebound speed / impact speed");
         key("rolling_friction", self.rolling_friction, at_least(0.0), "",
             "largest rolling torque / (normal force x R*), R* = r1 r2 / (r1 + r2), at a wall the radius");
+        key("twisting_friction", self.twisting_friction, at_least(0.0), "",
+            "largest torque about the normal / (normal force x R*)");
         key("stiffness", self.stiffness, or_infinite(above(0.0)), "N/m",
             "of the normal contact; inf: rigid; only with matched");
+        key("cohesion", self.cohesion, any(), "", "what draws the two together");
     }
 };
 

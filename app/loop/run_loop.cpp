@@ -25,6 +25,7 @@ std::vector<std::string> metrics_columns(const Simulation& simulation, const std
     std::vector<std::string> columns = {"time_s", "spheres", "inserted", "left", "contacts", "sweeps", "residual",
         "worst_overlap_d", "mean_overlap_d", "kinetic_energy_J", "potential_energy_J", "contact_energy_J",
         "velocity_error_m_per_s", "velocity_error_of_flow", "velocity_error_of_contacts", "force_error"};
+    if (simulation.model.physics.attraction) columns.emplace_back("attraction_energy_J");
     for (const std::size_t w : watched_walls)
         columns.push_back(column_name(fmt::format("{}_force_error", simulation.model.walls[w].name), "N"));
     for (const auto& sensor : simulation.sensors)
@@ -295,6 +296,7 @@ void RunLoop::write_metrics(const StepReport& report)
     const ErrorLook& look = statistics_.looks().latest();
     for (const double error : {look.velocity_error, look.of_flow(), look.of_contacts(), look.force_error})
         row.push_back(error);
+    if (simulation_.model.physics.attraction) row.push_back(report.contacts.attraction_energy);
     for (const std::size_t w : watched_walls_)
         row.push_back(look.wall_errors.empty() ? ErrorLook::unknown : look.wall_errors[w]);
     for (const auto& sensor : simulation_.sensors)

@@ -42,7 +42,7 @@ void EnergyBalance::add(const StepReport& report, bool comparable)
 
     // a report has the contact energy at the beginning of its step, which is the end of the step before
     std::optional<double> total;
-    if (motion_energy_) total = *motion_energy_ + report.contacts.stored_energy;
+    if (motion_energy_) total = *motion_energy_ + report.contacts.stored_energy + report.contacts.attraction_energy;
     if (total && total_energy_) {
         const double rise = *total - *total_energy_ - work_;
         lost_ += std::max(0.0, -rise);

@@ -174,6 +174,9 @@ void bind_report(py::module_& module)
             "contact_energy", [](const Report& r) { return r.contacts.stored_energy; },
             "in the springs of the contacts, when the step began [J]")
         .def_property_readonly(
+            "attraction_energy", [](const Report& r) { return r.contacts.attraction_energy; },
+            "of all that attract each other, when the step began, not above 0 [J]")
+        .def_property_readonly(
             "momentum", [](const Report& r) { return array_from(r.bodies.momentum.linear); },
             "of the spheres, (3,) [N s]")
         .def_property_readonly(

@@ -183,6 +183,8 @@ void print_scene(const OpenedScene& opened, const OverlapCheck& overlaps)
         model.mean_diameter);
     print_contents(opened);
     print_explanations(opened, overlaps);
+    say("Talus does not model shapes other than spheres, elasticity along the surface, breakage, wear, heat and fluids "
+        "(but for the force of liquid bridges)\n");
     print_needs(opened);
 }
 

@@ -76,6 +76,8 @@ ExitCode dump_step(const CommandLine& line)
             fmt::format("--at {:g} is after the end of the scene, {:g} s: give an earlier time, or a longer "
                         "'duration' with --set time.duration=",
                 line.at, opened.scene.time.duration));
+    if (opened.simulation.model.physics.twisting)
+        throw InputError("the scene has twisting_friction, for which FCLIB has no row: nothing is written");
     require_writable(line.out, line.force, inputs_of(opened, named_files(opened.scene)));
     use_threads(line.threads);
     Simulation& simulation = opened.simulation;

@@ -21,7 +21,7 @@ constexpr double wall_skin = 0.2;   ///< how far a wall may move before it is se
 /// Room around the centre of sphere i that its surface takes, with half the reach of its contacts.
 double needed_radius(const State& state, const Model& model, std::size_t i)
 {
-    return state.radius[i] + 0.5 * open_contact_reach * model.min_diameter;
+    return state.radius[i] + 0.5 * contact_reach(model) * model.min_diameter;
 }
 
 /// The room that sphere i takes, and would take after the closing horizon, with the reach of its contacts.
@@ -54,7 +54,7 @@ Box new_listed_box(const State& state, const Model& model, double h, std::size_t
 double usual_box_length(const Model& model)
 {
     const double way = longest_way * (1.0 + 2.0 * skin_per_way);
-    return model.max_diameter + (open_contact_reach + 2.0 * skin + way) * model.min_diameter;
+    return model.max_diameter + (contact_reach(model) + 2.0 * skin + way) * model.min_diameter;
 }
 
 /// The edge of the tiles: twice what two boxes that meet can be apart by their centres; for longer ones it is doubled.
@@ -177,7 +177,7 @@ public:
         : list_(list), old_(list, list.listed_box.size()), walls_(walls), movers_(movers), moves_(moves), stale_(stale)
     {
         // A wall does not come half of the way, as another sphere does.
-        const double reach = 0.5 * open_contact_reach * model.min_diameter;
+        const double reach = 0.5 * contact_reach(model) * model.min_diameter;
         for (const auto& wall : walls) {
             // One skin that it may have moved already, where a sphere is searched for alone, and one for the future.
             const double ahead = closing_horizon * h * wall.fastest(list.listed_around);

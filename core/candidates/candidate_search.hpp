@@ -6,6 +6,8 @@
 #include "core/world/placed_wall.hpp"
 #include "core/world/state.hpp"
 
+#include <algorithm>
+
 namespace talus
 {
 
@@ -14,6 +16,12 @@ inline constexpr double open_contact_reach = 0.01;
 
 /// A pair is also a contact when it would close within this many steps.
 inline constexpr double closing_horizon = 1.5;
+
+/// Up to which gap there is a contact, however it moves, in smallest diameters: what attracts does so up to its range.
+inline double contact_reach(const Model& model)
+{
+    return std::max(open_contact_reach, model.attraction_range / model.min_diameter);
+}
 
 /// Brings the candidate list up to date (a Verlet list with boxes for a skin; Verlet 1967).
 ///

@@ -16,13 +16,15 @@ struct alignas(32) CarriedContact {
     Vec3 impulse = Vec3::Zero(); ///< λ [N s]
     float compression = 0.0F;    ///< of its spring, what `handed_on` says: its energy, as a length [m]
     TouchRecord touch;
-    std::uint8_t unused[3] = {}; ///< kernels read the last eight bytes as one number
+    bool attached = false;       ///< its two have touched, and attract each other since
+    std::uint8_t unused[2] = {}; ///< kernels read the last eight bytes as one number
 
-    void persist(Archive& archive) { archive(impulse, compression, touch); }
+    void persist(Archive& archive) { archive(impulse, compression, touch, attached); }
 };
 static_assert(sizeof(CarriedContact) == 32 && std::is_standard_layout_v<CarriedContact> &&
               offsetof(CarriedContact, impulse) == 0 && offsetof(CarriedContact, compression) == 24 &&
-              offsetof(CarriedContact, touch) == 28 && sizeof(TouchRecord) == 1);
+              offsetof(CarriedContact, touch) == 28 && sizeof(TouchRecord) == 1 &&
+              offsetof(CarriedContact, attached) == 29);
 
 /// What contacts hand on, by slot: a slot is a listed pair, or one of those of a listed wall.
 struct CarriedImpulses {

@@ -18,7 +18,7 @@ StepConstants step_constants(const Model& model, const StepLength& length)
 {
     StepConstants step{};
     step.law = law_of_step(model, length);
-    step.reach = open_contact_reach * model.min_diameter;
+    step.reach = contact_reach(model) * model.min_diameter;
     step.horizon = closing_horizon * step.law.h;
     step.inverse_inertia_factor = model.physics.spin ? inverse_inertia_factor : 0.0;
     for (int d = 0; d < 3; ++d) step.cell_length[d] = model.periodicity.length[d];

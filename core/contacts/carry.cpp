@@ -45,6 +45,14 @@ ContactOutcome carry(TileContacts& contacts, CarriedImpulses& carried, const Sta
     return outcome;
 }
 
+/// What has touched stays attached.
+void carry_attractions(const TileContacts& contacts, CarriedImpulses& carried)
+{
+    if (!contacts.has_attraction()) return;
+    for (const std::size_t k : contacts.indices())
+        if (contacts.attraction(k) > 0.0) carried.contact[contacts.slot(k)].attached = true;
+}
+
 void note_walls_touched(const TileContacts& contacts, State& state)
 {
     for (const std::size_t k : contacts.indices())
@@ -57,7 +65,7 @@ WallLoad load_from(const TileContacts& walls, const State& state, double h)
     WallLoad load;
     for (const std::size_t k : walls.indices()) {
         const std::int32_t a = walls.a(k);
-        const Vec3 impulse = walls.impulse(k);
+        const Vec3 impulse = walls.impulse(k) - walls.attraction(k) * walls.normal(k);
         const Vec3 point = state.position[a] - h * state.body(a).velocity - state.radius[a] * walls.normal(k);
         load.impulse += impulse;
         load.torque += point.cross(impulse);
@@ -94,15 +102,17 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
         auto& outcome = outcomes[tile];
         TileContacts& walls = contacts.walls[tile];
         TileContacts& spheres = contacts.spheres[tile];
-        outcome = carry(spheres, network.list.tiles.tiles[tile].carried, state, law,
-            [&](std::size_t k) { return state.body(spheres.b(k)).velocity; });
+        CarriedImpulses& of_tile = network.list.tiles.tiles[tile].carried;
+        outcome = carry(spheres, of_tile, state, law, [&](std::size_t k) { return state.body(spheres.b(k)).velocity; });
         outcome += carry(walls, network.carried.walls, state, law,
             [&](std::size_t k) { return walls.has_moving_walls() ? walls.wall(k).velocity : Vec3::Zero().eval(); });
+        carry_attractions(spheres, of_tile);
+        carry_attractions(walls, network.carried.walls);
         if (walls.has_moving_walls())
             for (const std::size_t k : walls.indices()) {
                 const WallRow wall = walls.wall(k);
                 const Vec3 impulse = walls.impulse(k);
-                outcome.wall_work += impulse.dot(wall.velocity);
+                outcome.wall_work += (impulse - walls.attraction(k) * walls.normal(k)).dot(wall.velocity);
                 // An impact is judged by the velocity that the wall has now, all others by that of before.
                 if (walls.kind(k) != ContactKind::impact)
                     outcome.wall_gain_work -= 0.5 * wall.gain * impulse.dot(walls.normal(k));
@@ -115,6 +125,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
     for (const auto& outcome : outcomes) all += outcome;
     all += carry(contacts.pistons, network.carried.walls, state, law,
         [&](std::size_t k) { return state.pistons[model.walls[contacts.pistons.b(k)].piston].velocity; });
+    carry_attractions(contacts.pistons, network.carried.walls);
     all.from_pistons = load_from(contacts.pistons, state, h);
     note_walls_touched(contacts.pistons, state);
     return all;

@@ -24,6 +24,7 @@ struct Contact {
     double friction = 0.0;                ///< μ
     double arm_scale = 1.0;        ///< s = |x_a − x_b| / (r_a + r_b); 1 at walls: lever arms add up to the distance
     double inverse_mass_sum = 0.0; ///< W = 1/m_a + 1/m_b [1/kg]
+    double attraction = 0.0;       ///< c: with what impulse b draws a to itself besides λ [N s]
 
     double gap = 0.0;         ///< g at the beginning of the step [m]; < 0 is overlap
     double wall_level = 0.0;  ///< n·x at which the gap to the wall is zero after the step [m]; at walls
@@ -32,12 +33,16 @@ struct Contact {
     std::uint32_t slot = 0;   ///< where it is kept what it carries
 
     double normal_impulse() const { return impulse.dot(normal); }
+    /// What b does to a in all [N s].
+    Vec3 whole_impulse() const { return impulse - attraction * normal; }
 };
 
-/// The rolling row of a contact; only where a scene has rolling resistance.
+/// The rolling row of a contact, and that of twisting; only where a scene resists one of them.
 struct RollingRow {
-    Vec3 impulse = Vec3::Zero(); ///< angular impulse on a [N m s], at right angles to n
+    Vec3 impulse = Vec3::Zero(); ///< angular impulse on a [N m s], at right angles to n …
+    double twist = 0.0;          ///< … and along n
     double reach = 0.0;          ///< μ_r R* [m]: |impulse| ≤ μ_r R* λ_n
+    double twist_reach = 0.0;    ///< μ_t R* [m]: |twist| ≤ μ_t R* λ_n
     double inertia = 0.0;        ///< 1 / (1/I_a + 1/I_b) [kg m²]
 };
 

@@ -10,9 +10,9 @@ void StepContacts::resize(const CandidateList& list, const ModelledPhysics& phys
 {
     spheres.resize(list.tiles.count());
     walls.resize(list.tiles.count());
-    for (TileContacts& tile : spheres) tile.clear(physics.rolling, false, true);
-    for (TileContacts& tile : walls) tile.clear(physics.rolling, physics.moving_walls);
-    pistons.clear(physics.rolling, false);
+    for (TileContacts& tile : spheres) tile.clear({physics.rolling, false, physics.attraction}, true);
+    for (TileContacts& tile : walls) tile.clear({physics.rolling, physics.moving_walls, physics.attraction});
+    pistons.clear({physics.rolling, false, physics.attraction});
     piston_arms.clear();
     places.resize(sphere_count);
     reaches.resize(sphere_count);

@@ -17,6 +17,7 @@ ContactSurvey& ContactSurvey::operator+=(const ContactSurvey& other)
     overlap_sum += other.overlap_sum;
     stored_energy += other.stored_energy;
     push_out_energy += other.push_out_energy;
+    attraction_energy += other.attraction_energy;
     return *this;
 }
 
@@ -27,6 +28,7 @@ void ContactSurvey::then(const ContactSurvey& next)
     worst_overlap = std::max(worst_overlap, before.worst_overlap);
     stored_energy = before.stored_energy;
     push_out_energy += before.push_out_energy;
+    attraction_energy = before.attraction_energy;
 }
 
 ContactSurvey survey_of(const TouchSums& sums)

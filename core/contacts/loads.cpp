@@ -33,8 +33,8 @@ std::vector<WallLoad> wall_loads(const ContactNetwork& network, const State& sta
         for (const std::size_t k : contacts.indices()) {
             const Contact c = contacts.contact(k);
             const Vec3 point = state.position[c.a] - state.radius[c.a] * c.normal;
-            loads[c.b].impulse -= c.impulse;
-            loads[c.b].torque -= point.cross(c.impulse);
+            loads[c.b].impulse -= c.whole_impulse();
+            loads[c.b].torque -= point.cross(c.whole_impulse());
             if (contacts.has_rolling()) loads[c.b].torque -= contacts.rolling_impulse(k);
         }
     };

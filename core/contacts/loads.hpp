@@ -10,11 +10,16 @@
 namespace talus
 {
 
-/// Calls use(contact) for each of these contacts of the last step that has an impulse.
+/// Calls use(contact) for each of these contacts of the last step that has an impulse: with the whole one, attraction
+/// and all.
 template <class Use> void for_each_loaded(const TileContacts& contacts, Use&& use)
 {
     for (const std::size_t k : contacts.indices())
-        if (!contacts.impulse(k).isZero(0.0)) use(contacts.contact(k));
+        if (!contacts.impulse(k).isZero(0.0) || contacts.attraction(k) > 0.0) {
+            Contact whole = contacts.contact(k);
+            whole.impulse = whole.whole_impulse();
+            use(whole);
+        }
 }
 
 /// The loaded contacts between spheres. Those who need the branch from b to a take (r_a + r_b + gap) n, which is right
@@ -34,7 +39,7 @@ template <class Use> void for_each_loaded_wall_contact(const ContactNetwork& net
 /// What its contacts did to a sphere in a step, those with walls included.
 struct SphereLoad {
     Vec3 impulse = Vec3::Zero(); ///< sum of the contact impulses [N s]
-    std::int32_t contacts = 0;   ///< those with an impulse: the sphere's coordination number
+    std::int32_t contacts = 0;   ///< those with one, or that attract: the sphere's coordination number
 };
 
 /// The load on each of `spheres` spheres by storage index, from the solved contacts.

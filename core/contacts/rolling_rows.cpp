@@ -3,6 +3,8 @@
 
 #include "core/law/coulomb.hpp"
 
+#include <algorithm>
+
 namespace talus
 {
 namespace
@@ -14,11 +16,13 @@ RollingRow rolling_row(const Contact& c, bool with_wall, const Vec3& carried, co
     const int other = with_wall ? model.walls[c.b].material : state.material[c.b];
     const double reduced_radius = with_wall ? a : a * b / (a + b);
     const ContactLaw& law = model.materials.between(state.material[c.a], other);
-    RollingRow row{Vec3::Zero(), law.rolling_friction * reduced_radius,
+    RollingRow row{Vec3::Zero(), 0.0, law.rolling_friction * reduced_radius, law.twisting_friction * reduced_radius,
         1.0 / (state.body(c.a).inverse_inertia() + (with_wall ? 0.0 : state.body(c.b).inverse_inertia()))};
     if (c.kind == ContactKind::impact) return row;
-    row.impulse = carried - carried.dot(c.normal) * c.normal;
+    const double along = carried.dot(c.normal), most = row.twist_reach * c.normal_impulse();
+    row.impulse = carried - along * c.normal;
     cut_to_disk<double>(row.impulse, row.reach * c.normal_impulse());
+    row.twist = std::clamp(along, -most, most);
     return row;
 }
 

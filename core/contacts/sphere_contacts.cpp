@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contacts/sphere_contacts.hpp"
 
+#include "core/contacts/attractions.hpp"
 #include "core/contacts/rolling_rows.hpp"
 
 #include <algorithm>
@@ -80,12 +81,17 @@ void SphereAssembly::place(const Tile& tile, const SphereNumbers& spheres, TileC
 ContactSurvey SphereAssembly::make(const Tile& tile, const SphereNumbers& spheres, TileContacts& contacts)
 {
     TouchSums sums;
+    double attraction_energy = 0.0;
     for (std::size_t p = 0; p < contacts.packs(); ++p) {
         const PackImpacts impacts = kernel_.touch_spheres(contacts.pack(p), contacts.record(p), sums, spheres, step_);
         if (contacts.has_rolling()) make_rolling_rows(contacts, p, false, tile.carried.rolling_impulse, state_, model_);
+        if (contacts.has_attraction())
+            attraction_energy += find_attractions(contacts, p, false, tile.carried, state_, model_, step_.law.h);
         note_impacts(contacts.pack(p), impacts, state_.bodies, network_.contacts.impacts);
     }
-    return survey_of(sums);
+    ContactSurvey survey = survey_of(sums);
+    survey.attraction_energy = attraction_energy;
+    return survey;
 }
 
 } // namespace talus

@@ -15,15 +15,15 @@ template <class Pack> void add_one(std::vector<Pack>& packs)
 
 } // namespace
 
-void TileContacts::clear(bool rolling, bool moving_walls, bool made_whole)
+void TileContacts::clear(const Parts& parts, bool made_whole)
 {
     count_ = 0;
-    with_rolling_ = rolling;
-    with_moving_walls_ = moving_walls;
+    parts_ = parts;
     made_whole_ = made_whole;
     // What the scene needs may have changed: a wall may be driven that has stood still.
-    if (rolling) rolling_.resize(packs_.size());
-    if (moving_walls) wall_.resize(packs_.size());
+    if (parts.rolling) rolling_.resize(packs_.size());
+    if (parts.moving_walls) wall_.resize(packs_.size());
+    if (parts.attraction) attraction_.resize(packs_.size());
 }
 
 void TileContacts::append_pack()
@@ -32,13 +32,14 @@ void TileContacts::append_pack()
     if (packs_.size() < count_) {
         add_one(packs_);
         add_one(records_);
-        if (with_rolling_) add_one(rolling_);
-        if (with_moving_walls_) add_one(wall_);
+        if (parts_.rolling) add_one(rolling_);
+        if (parts_.moving_walls) add_one(wall_);
+        if (parts_.attraction) add_one(attraction_);
     } else if (!made_whole_) {
         packs_[p] = {};
         records_[p] = {};
-        if (with_rolling_) rolling_[p] = {};
-        if (with_moving_walls_) wall_[p] = {};
+        if (parts_.rolling) rolling_[p] = {};
+        if (parts_.moving_walls) wall_[p] = {};
     }
     for (int lane = 0; lane < pack_size; ++lane) packs_[p].a[lane] = packs_[p].b[lane] = -1;
     records_[p].in_problem = 0;
@@ -70,9 +71,20 @@ void TileContacts::set_law(std::size_t k, const BesideImpact& law)
 void TileContacts::set_rolling(std::size_t k, const RollingRow& row)
 {
     RollingPack& pack = rolling_[k / pack_size];
-    put(pack.impulse, k % pack_size, row.impulse);
-    pack.reach[k % pack_size] = row.reach;
-    pack.inertia[k % pack_size] = row.inertia;
+    const std::size_t lane = k % pack_size;
+    put(pack.impulse, lane, row.impulse);
+    pack.twist[lane] = row.twist;
+    pack.reach[lane] = row.reach;
+    pack.twist_reach[lane] = row.twist_reach;
+    pack.inertia[lane] = row.inertia;
+}
+
+void TileContacts::set_rolling_impulse(std::size_t k, const Vec3& impulse)
+{
+    RollingPack& pack = rolling_[k / pack_size];
+    const std::size_t lane = k % pack_size;
+    pack.twist[lane] = pack.twist_reach[lane] > 0.0 ? impulse.dot(normal(k)) : 0.0;
+    put(pack.impulse, lane, impulse - pack.twist[lane] * normal(k));
 }
 
 void TileContacts::set_wall(std::size_t k, const WallRow& row)
@@ -84,8 +96,8 @@ void TileContacts::set_wall(std::size_t k, const WallRow& row)
 
 PackSpan TileContacts::span()
 {
-    return {
-        packs_.data(), with_rolling_ ? rolling_.data() : nullptr, with_moving_walls_ ? wall_.data() : nullptr, count_};
+    return {packs_.data(), parts_.rolling ? rolling_.data() : nullptr, parts_.moving_walls ? wall_.data() : nullptr,
+        count_};
 }
 
 Contact TileContacts::contact(std::size_t k) const
@@ -104,6 +116,7 @@ Contact TileContacts::contact(std::size_t k) const
         .friction = pack.friction[lane],
         .arm_scale = pack.arm_scale[lane],
         .inverse_mass_sum = record.inverse_mass_sum[lane],
+        .attraction = attraction(k),
         .gap = record.gap[lane],
         .wall_level = record.wall_level[lane],
         .compression = record.compression[lane],
@@ -114,7 +127,8 @@ Contact TileContacts::contact(std::size_t k) const
 RollingRow TileContacts::rolling(std::size_t k) const
 {
     const RollingPack& pack = rolling_[k / pack_size];
-    return {rolling_impulse(k), pack.reach[k % pack_size], pack.inertia[k % pack_size]};
+    const std::size_t lane = k % pack_size;
+    return {get(pack.impulse, lane), pack.twist[lane], pack.reach[lane], pack.twist_reach[lane], pack.inertia[lane]};
 }
 
 WallRow TileContacts::wall(std::size_t k) const

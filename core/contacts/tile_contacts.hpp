@@ -16,9 +16,13 @@ namespace talus
 class TileContacts
 {
 public:
-    /// Begins anew. @param rolling, moving_walls what the scene needs besides
+    /// What there is of its contacts besides.
+    struct Parts {
+        bool rolling = false, moving_walls = false, attraction = false;
+    };
+    /// Begins anew.
     /// @param made_whole all lanes of a pack will be made at once, so that it need not be empty before
-    void clear(bool rolling, bool moving_walls, bool made_whole = false);
+    void clear(const Parts& parts, bool made_whole = false);
     /// Adds a pack without contacts.
     void append_pack();
     /// Adds a contact behind the last one, whatever spheres it shares: for contacts that are not swept by packs.
@@ -38,11 +42,11 @@ public:
     {
         records_[k / pack_size].touch[k % pack_size] = std::bit_cast<std::uint8_t>(touch);
     }
+    /// @param impulse c [N s]
+    void set_attraction(std::size_t k, double impulse) { attraction_[k / pack_size].impulse[k % pack_size] = impulse; }
     void set_impulse(std::size_t k, const Vec3& impulse) { put(packs_[k / pack_size].impulse, k % pack_size, impulse); }
-    void set_rolling_impulse(std::size_t k, const Vec3& impulse)
-    {
-        put(rolling_[k / pack_size].impulse, k % pack_size, impulse);
-    }
+    /// @param impulse the angular one in all, rolling and twisting
+    void set_rolling_impulse(std::size_t k, const Vec3& impulse);
 
     std::size_t packs() const { return count_; }
     const ContactPack& pack(std::size_t p) const { return packs_[p]; }
@@ -51,8 +55,9 @@ public:
     RecordPack& record(std::size_t p) { return records_[p]; }
     PackSpan span();
 
-    bool has_rolling() const { return with_rolling_; }
-    bool has_moving_walls() const { return with_moving_walls_; }
+    bool has_rolling() const { return parts_.rolling; }
+    bool has_moving_walls() const { return parts_.moving_walls; }
+    bool has_attraction() const { return parts_.attraction; }
     /// The indices of the contacts, in the order in which they are swept.
     auto indices() const
     {
@@ -73,6 +78,11 @@ public:
     Vec3 impulse(std::size_t k) const { return get(packs_[k / pack_size].impulse, k % pack_size); }
     double normal_impulse(std::size_t k) const { return impulse(k).dot(normal(k)); }
     bool is_loaded(std::size_t k) const { return normal_impulse(k) > 0.0; }
+    /// c [N s]; 0 where nothing attracts.
+    double attraction(std::size_t k) const
+    {
+        return parts_.attraction ? attraction_[k / pack_size].impulse[k % pack_size] : 0.0;
+    }
     double gap(std::size_t k) const { return records_[k / pack_size].gap[k % pack_size]; }
     double wall_level(std::size_t k) const { return records_[k / pack_size].wall_level[k % pack_size]; }
     std::uint32_t slot(std::size_t k) const { return records_[k / pack_size].slot[k % pack_size]; }
@@ -85,17 +95,24 @@ public:
     ContactKind kind(std::size_t k) const { return records_[k / pack_size].kind[k % pack_size]; }
     RollingRow rolling(std::size_t k) const;
     WallRow wall(std::size_t k) const;
-    Vec3 rolling_impulse(std::size_t k) const { return get(rolling_[k / pack_size].impulse, k % pack_size); }
+    /// The angular one in all, rolling and twisting.
+    Vec3 rolling_impulse(std::size_t k) const
+    {
+        const RollingPack& pack = rolling_[k / pack_size];
+        return get(pack.impulse, k % pack_size) + pack.twist[k % pack_size] * normal(k);
+    }
 
 private:
     // Room for as many packs as there ever were: to give them back and take them again costs more than to make them.
     std::size_t count_ = 0; ///< of the packs in use
     std::vector<ContactPack> packs_;
     std::vector<RecordPack> records_;
-    std::vector<RollingPack> rolling_; ///< empty unless the scene has rolling resistance
-    std::vector<WallPack> wall_;       ///< empty unless walls move, and between spheres
+    std::vector<RollingPack> rolling_;       ///< empty unless the scene has rolling resistance
+    std::vector<WallPack> wall_;             ///< empty unless walls move, and between spheres
+    std::vector<AttractionPack> attraction_; ///< empty unless the scene has attraction
     std::vector<std::size_t> struck_;
-    bool with_rolling_ = false, with_moving_walls_ = false, made_whole_ = false;
+    Parts parts_;
+    bool made_whole_ = false;
 
     static Vec3 get(const double (&rows)[3][pack_size], std::size_t lane)
     {

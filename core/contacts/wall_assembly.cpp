@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contacts/wall_assembly.hpp"
 
+#include "core/contacts/attractions.hpp"
 #include "core/contacts/rolling_rows.hpp"
 #include "core/packs/kernels.hpp"
 
@@ -54,17 +55,22 @@ void WallAssembly::add(const WallTouch& at)
 ContactSurvey WallAssembly::make()
 {
     TouchSums sums;
+    double attraction_energy = 0.0;
     for (std::size_t p = 0; p < contacts_.packs(); ++p) {
         const ContactPack& pack = contacts_.pack(p);
         PackImpacts impacts =
             fastest_kernels().touch.touch_walls(contacts_.pack(p), contacts_.record(p), room_.touches[p], sums, step_);
         if (contacts_.has_rolling()) make_rolling_rows(contacts_, p, true, carried_.rolling_impulse, state_, model_);
+        if (contacts_.has_attraction())
+            attraction_energy += find_attractions(contacts_, p, true, carried_, state_, model_, step_.law.h);
         for (; impacts.lanes != 0; impacts.lanes &= impacts.lanes - 1) {
             const int lane = std::countr_zero(impacts.lanes);
             impacts_[pack.a[lane]].note(impacts.size[lane], 0.0); // nothing is heavier than what stands still
         }
     }
-    return survey_of(sums);
+    ContactSurvey survey = survey_of(sums);
+    survey.attraction_energy = attraction_energy;
+    return survey;
 }
 
 } // namespace talus

@@ -32,7 +32,7 @@ void measure_power(Load& load, const WholeContact<wall, R>& own, const Contact& 
         if (tangent.norm() < sliding_share * c.friction * normal_impulse) load.unsliding += power;
     }
     if constexpr (R::rolling) {
-        const double power = rolling.impulse.dot(as_vector(own.spin()));
+        const double power = (rolling.impulse + rolling.twist * c.normal).dot(as_vector(own.spin()));
         load.power += power;
         if (rolling.impulse.norm() < sliding_share * rolling.reach * normal_impulse) load.unsliding += power;
     }
@@ -51,8 +51,9 @@ Load load_of(const TileContacts& contacts, const PackSpan& packs, std::size_t k,
     if constexpr (!wall) load.b = c.b;
     if constexpr (R::spin) load.turn_a = load.turn_b = -c.arm_scale * c.normal.cross(c.impulse);
     if constexpr (R::rolling) {
-        load.turn_a += rolling.impulse / bodies[c.a].spin_radius;
-        if constexpr (!wall) load.turn_b -= rolling.impulse / bodies[c.b].spin_radius;
+        const Vec3 turn = rolling.impulse + rolling.twist * c.normal;
+        load.turn_a += turn / bodies[c.a].spin_radius;
+        if constexpr (!wall) load.turn_b -= turn / bodies[c.b].spin_radius;
     }
     return load;
 }

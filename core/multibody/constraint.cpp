@@ -41,6 +41,10 @@ void project(const Constraint& constraint, Eigen::Ref<Eigen::VectorXd> impulse)
     project_on_disk(impulse.segment<tangent_rows>(1), constraint.friction * impulse[0]);
     if (constraint.rolls())
         project_on_disk(impulse.segment<rolling_rows>(1 + tangent_rows), constraint.rolling_reach * impulse[0]);
+    if (constraint.twists()) {
+        const double most = constraint.twisting_reach * impulse[0];
+        impulse[twisting_row] = std::clamp(impulse[twisting_row], -most, most);
+    }
 }
 
 double cone_violation(const Constraint& constraint, const Eigen::Ref<const Eigen::VectorXd>& impulse)
@@ -58,6 +62,8 @@ double cone_violation(const Constraint& constraint, const Eigen::Ref<const Eigen
     if (constraint.rolls())
         worst = std::max(
             worst, beyond_disk(impulse.segment<rolling_rows>(1 + tangent_rows), constraint.rolling_reach * impulse[0]));
+    if (constraint.twists())
+        worst = std::max(worst, std::abs(impulse[twisting_row]) - constraint.twisting_reach * impulse[0]);
     return worst;
 }
 

@@ -12,12 +12,13 @@ namespace talus::multibody
 enum class Law {
     equality,   ///< y = 0; λ_k has either sign
     unilateral, ///< each row by itself: 0 ≤ λ ⟂ y ≥ 0
-    contact, ///< rows normal, tangent, tangent[, rolling, rolling]: 0 ≤ λ_n ⟂ y_n ≥ 0; |λ_t| ≤ μ λ_n, and where y_t is
-             ///< not zero λ_t = −μ λ_n y_t/|y_t|; so the rolling rows, with their reach in place of μ
+    contact, ///< rows normal, tangent, tangent[, rolling, rolling[, twisting]]: 0 ≤ λ_n ⟂ y_n ≥ 0; |λ_t| ≤ μ λ_n, and
+             ///< where y_t is not zero λ_t = −μ λ_n y_t/|y_t|; so the others, with their reach in place of μ
 };
 
 inline constexpr Eigen::Index tangent_rows = 2; ///< of a contact, after its normal
 inline constexpr Eigen::Index rolling_rows = 2; ///< of a contact, after its tangents, where it has them
+inline constexpr Eigen::Index twisting_row = 1 + tangent_rows + rolling_rows; ///< of a contact that has one
 
 /// One constraint: its rows in λ, q and Σ, and the law of its impulse.
 struct Constraint {
@@ -26,10 +27,12 @@ struct Constraint {
     Eigen::Index rows = 0;
     double friction = 0.0;                                     ///< μ of a contact
     double headroom = std::numeric_limits<double>::infinity(); ///< a contact asks for G v = q_n + this at most [m/s] …
-    double compliance = 0.0;    ///< … or for q_n − Σ_n λ_n, with this Σ_n, if that is less [1/kg]
-    double rolling_reach = 0.0; ///< μ_r R* [m] of a contact with rolling rows: |λ_r| ≤ μ_r R* λ_n
+    double compliance = 0.0;     ///< … or for q_n − Σ_n λ_n, with this Σ_n, if that is less [1/kg]
+    double rolling_reach = 0.0;  ///< μ_r R* [m] of a contact with rolling rows: |λ_r| ≤ μ_r R* λ_n
+    double twisting_reach = 0.0; ///< μ_t R* [m] of one with a twisting row
 
-    bool rolls() const { return law == Law::contact && rows == 1 + tangent_rows + rolling_rows; }
+    bool rolls() const { return law == Law::contact && rows >= twisting_row; }
+    bool twists() const { return law == Law::contact && rows > twisting_row; }
 };
 
 /// y_n of a contact is G v − min(q_n − Σ_n λ_n, q_n + headroom): what its rows' y becomes by that, where the second is

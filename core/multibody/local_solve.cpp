@@ -22,7 +22,7 @@ struct DiskRows {
 };
 
 constexpr Index disk_size = 2;
-using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 1 + 2 * disk_size, 1>; ///< rows of a contact
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 2 + 2 * disk_size, 1>; ///< rows of a contact
 static_assert(tangent_rows == disk_size && rolling_rows == disk_size);
 
 /// Calls visit(DiskRows) for the tangential and, where there are such, the rolling rows of a contact.
@@ -32,11 +32,13 @@ template <class Visit> void for_each_disk(const Constraint& contact, Visit&& vis
     if (contact.rolls()) visit(DiskRows{1 + tangent_rows, contact.rolling_reach});
 }
 
-/// One row as an equation, z_i ≥ least, and what that changes in all rows.
-void solve_row(const LocalProblem& local, Index i, double least, LocalVector y, LocalVector z)
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// One row as an equation, least ≤ z_i ≤ most, and what that changes in all rows.
+void solve_row(const LocalProblem& local, Index i, double least, double most, LocalVector y, LocalVector z)
 {
     if (local.D(i, i) <= 0.0) return; // nothing moves: both bodies are fixed
-    const double solved = std::max(least, z[i] - local.omega * y[i] / local.D(i, i));
+    const double solved = std::clamp(z[i] - local.omega * y[i] / local.D(i, i), least, most);
     y += local.D.col(i) * (solved - z[i]);
     z[i] = solved;
 }
@@ -56,7 +58,7 @@ void solve_disk(const LocalProblem& local, const DiskRows& rows, LocalVector y, 
 double least_impulse(const Constraint& constraint, Index row)
 {
     const bool is_bounded = constraint.law == Law::unilateral || (constraint.law == Law::contact && row == 0);
-    return is_bounded ? 0.0 : -std::numeric_limits<double>::infinity();
+    return is_bounded ? 0.0 : -unbounded;
 }
 
 /// What (21) makes of the impulse of (18): z = z_1 direction + stuck.
@@ -79,6 +81,14 @@ SlidingDirection sliding_direction(const Constraint& contact, const LocalVector&
         sliding.direction.segment<disk_size>(rows.first) = rows.coefficient * part.normalized();
         sliding.slides = true;
     });
+    if (!contact.twists()) return sliding;
+    const double twist = z[twisting_row];
+    if (std::abs(twist) <= contact.twisting_reach * z[0]) {
+        sliding.stuck[twisting_row] = twist;
+    } else {
+        sliding.direction[twisting_row] = std::copysign(contact.twisting_reach, twist);
+        sliding.slides = true;
+    }
     return sliding;
 }
 
@@ -107,7 +117,7 @@ void solve_along_sliding(const LocalProblem& local, LocalVector y, LocalVector z
 
 void solve_by_row(const LocalProblem& local, LocalVector y, LocalVector z)
 {
-    for (Index i = 0; i < z.size(); ++i) solve_row(local, i, least_impulse(local.constraint, i), y, z);
+    for (Index i = 0; i < z.size(); ++i) solve_row(local, i, least_impulse(local.constraint, i), unbounded, y, z);
     project(local.constraint, z);
 }
 
@@ -122,8 +132,11 @@ void solve_in_sequence(const LocalProblem& local, LocalVector y, LocalVector z)
     case Law::contact:
         break;
     }
-    solve_row(local, 0, 0.0, y, z);
+    solve_row(local, 0, 0.0, unbounded, y, z);
     for_each_disk(local.constraint, [&](const DiskRows& rows) { solve_disk(local, rows, y, z); });
+    if (!local.constraint.twists()) return;
+    const double most = local.constraint.twisting_reach * z[0];
+    solve_row(local, twisting_row, -most, most, y, z);
 }
 
 void solve_locally(LocalSolve how, const LocalProblem& local, LocalVector y, LocalVector z)

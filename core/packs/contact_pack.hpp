@@ -57,11 +57,13 @@ struct alignas(64) RecordPack {
     bool holds(std::size_t lane) const { return (in_problem >> lane & 1U) != 0; }
 };
 
-/// Their rolling rows: made by make_rolling_rows, swept like contacts.
+/// Their rolling rows, and that along n: made by make_rolling_rows, swept like contacts.
 struct alignas(64) RollingPack {
-    double impulse[3][pack_size]; ///< angular impulse on a [N m s], at right angles to n
-    double reach[pack_size];      ///< μ_r R* [m]
-    double inertia[pack_size];    ///< 1 / (1/I_a + 1/I_b) [kg m²]
+    double impulse[3][pack_size];  ///< angular impulse on a [N m s], at right angles to n
+    double twist[pack_size];       ///< … and along n
+    double reach[pack_size];       ///< μ_r R* [m]
+    double twist_reach[pack_size]; ///< μ_t R* [m]
+    double inertia[pack_size];     ///< 1 / (1/I_a + 1/I_b) [kg m²]
 };
 
 /// How their walls move, the mean over the step: found by detection, read by sweeps.
@@ -69,6 +71,11 @@ struct alignas(64) WallPack {
     double velocity[3][pack_size]; ///< [m/s]
     double spin[3][pack_size];     ///< [rad/s]
     double gain[pack_size];        ///< of the velocity along n since the step before [m/s]
+};
+
+/// With what impulse those attract each other that do: made by find_attractions, read by apply_attractions and reports.
+struct AttractionPack {
+    double impulse[pack_size]; ///< c = h F [N s]; 0: they do not
 };
 
 /// The packs of one tile as a sweep sees them.

@@ -9,8 +9,8 @@ namespace talus::packs
 
 /// Records of four numbers with which a slot keeps what it carries: λ, and κ beside the TouchRecord in one number.
 template <int width> struct CarriedRecords {
-    static constexpr int touch_bits = 32; ///< behind those of κ
-    static constexpr std::size_t touch_byte = 3 * sizeof(double) + touch_bits / 8;
+    static constexpr int touch_bits = 32;                                          ///< behind those of κ
+    static constexpr std::size_t touch_byte = 3 * sizeof(double) + touch_bits / 8; ///< and the next says: attached
 
     Vector<width> impulse;
     Numbers<width> compression;
@@ -46,7 +46,10 @@ template <int width> struct CarriedRecords {
     /// Whether something is known of the contact of a slot.
     [[gnu::always_inline]] static bool is_known(const double* carried, std::uint32_t slot)
     {
-        return reinterpret_cast<const std::uint8_t*>(carried + std::size_t{4} * slot)[touch_byte] != 0;
+        std::uint32_t known;
+        __builtin_memcpy(
+            &known, reinterpret_cast<const char*>(carried + std::size_t{4} * slot) + touch_byte, sizeof known);
+        return known != 0;
     }
 };
 

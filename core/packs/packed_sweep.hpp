@@ -170,20 +170,34 @@ template <int width, bool wall, class R, bool full> struct Contacts {
         return spin;
     }
 
+    /// Angular impulses of the rolling rows: at right angles to n, and along it.
+    struct Turning {
+        Vector<width> rolling;
+        Numbers<width> twist;
+    };
+    [[gnu::always_inline]] Turning turning() const
+    {
+        return {Vector<width>::load(rolling->impulse, first), load<width>(rolling->twist + first)};
+    }
+
     /// The rolling rows, METHOD (8). @param impulse of the contact as it stands
-    [[gnu::always_inline]] Vector<width> solved_rolling(const Vector<width>& impulse, double relaxation) const
+    [[gnu::always_inline]] Turning solved_rolling(const Vector<width>& impulse, double relaxation) const
     {
         const Vector<width> spin = this->spin();
-        const Numbers<width> inertia = relaxation * load<width>(rolling->inertia + first);
-        Vector<width> torque =
-            Vector<width>::load(rolling->impulse, first) - (spin - normal * spin.dot(normal)) * inertia;
-        cut_to_disk<Numbers<width>>(torque, load<width>(rolling->reach + first) * impulse.dot(normal));
-        return torque;
+        const Numbers<width> inertia = relaxation * load<width>(rolling->inertia + first), along = spin.dot(normal),
+                             normal_impulse = impulse.dot(normal),
+                             most = load<width>(rolling->twist_reach + first) * normal_impulse;
+        Turning solved = turning();
+        solved.rolling = solved.rolling - (spin - normal * along) * inertia;
+        cut_to_disk<Numbers<width>>(solved.rolling, load<width>(rolling->reach + first) * normal_impulse);
+        solved.twist = larger<Numbers<width>>(-most, smaller<Numbers<width>>(most, solved.twist - along * inertia));
+        return solved;
     }
 
     /// ω ← ω + I⁻¹ τ.
-    [[gnu::always_inline]] void apply_rolling(const Vector<width>& torque)
+    [[gnu::always_inline]] void apply_rolling(const Turning& turn)
     {
+        const Vector<width> torque = turn.rolling + normal * turn.twist;
         a.set_rim_velocity(a.rim_velocity() + torque * (inverse_inertia_factor * a.inverse_mass() / a.spin_radius()));
         if constexpr (!wall)
             b.set_rim_velocity(
@@ -209,13 +223,13 @@ template <int width, bool wall, class R, bool full> struct Contacts {
             apply(change);
         }
         if constexpr (R::rolling) {
-            const Vector<width> turn = solved_rolling(apply_change ? next : impulse, relaxation);
-            const Vector<width> turn_change = turn - Vector<width>::load(rolling->impulse, first);
-            add_rolling(sums.change[group], turn_change);
-            add_rolling(sums.size[group], turn);
+            const Turning before = turning(), after = solved_rolling(apply_change ? next : impulse, relaxation);
+            const Turning by{after.rolling - before.rolling, after.twist - before.twist};
+            add_rolling(sums.change[group], by);
+            add_rolling(sums.size[group], after);
             if constexpr (apply_change) {
-                turn.store(rolling->impulse, first);
-                apply_rolling(turn_change);
+                put(after);
+                apply_rolling(by);
             }
         }
         if constexpr (apply_change) put_back();
@@ -226,8 +240,7 @@ template <int width, bool wall, class R, bool full> struct Contacts {
         const Vector<width> impulse = Vector<width>::load(pack.impulse, first);
         apply(impulse);
         if constexpr (R::rolling) {
-            const Vector<width> turn = Vector<width>::load(rolling->impulse, first);
-            apply_rolling(turn);
+            apply_rolling(turning());
         }
         put_back();
     }
@@ -239,19 +252,24 @@ template <int width, bool wall, class R, bool full> struct Contacts {
         (impulse + change).store(pack.impulse, first);
         apply(change);
         if constexpr (R::rolling) {
-            const Vector<width> turn = Vector<width>::load(rolling->impulse, first), turn_change = turn * share;
-            (turn + turn_change).store(rolling->impulse, first);
-            apply_rolling(turn_change);
+            const Turning before = turning(), by{before.rolling * share, before.twist * share};
+            put({before.rolling + by.rolling, before.twist + by.twist});
+            apply_rolling(by);
         }
         put_back();
     }
 
 private:
-    [[gnu::always_inline]] void add_rolling(Numbers<width>& sum, const Vector<width>& turn) const
+    [[gnu::always_inline]] void add_rolling(Numbers<width>& sum, const Turning& turn) const
     {
         const Numbers<width> inertia = load<width>(rolling->inertia + first);
-        const Numbers<width> part = turn.dot(turn) / inertia;
+        const Numbers<width> part = (turn.rolling.dot(turn.rolling) + turn.twist * turn.twist) / inertia;
         sum += inertia > 0.0 ? part : Numbers<width>{}; // 0 where a lane is empty
+    }
+    [[gnu::always_inline]] void put(const Turning& turn)
+    {
+        turn.rolling.store(rolling->impulse, first);
+        store<width>(rolling->twist + first, turn.twist);
     }
 };
 

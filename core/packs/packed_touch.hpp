@@ -226,7 +226,7 @@ template <int width>
     for (int lane = 0; lane < width; ++lane) {
         const bool is_empty = contact.a[first + lane] < 0;
         const std::int32_t a = is_empty ? 0 : contact.a[first + lane], b = is_empty ? 0 : contact.b[first + lane];
-        laws[lane] = spheres.laws + 4 * (spheres.material[a] * spheres.materials + spheres.material[b]);
+        laws[lane] = spheres.laws + 8 * (spheres.material[a] * spheres.materials + spheres.material[b]);
         slot[lane] = is_empty ? record.slot[0] : record.slot[first + lane];
     }
     Numbers<width> law[4];

@@ -65,7 +65,7 @@ struct SphereNumbers {
     const double* reaches;        ///< by sphere: from its centre, what it can touch in this step [m]
     const std::int32_t* material; ///< by sphere
     std::int32_t materials;       ///< how many there are
-    const double* laws;           ///< 4 for each pair of materials: μ, e, μ_r, k
+    const double* laws;           ///< 8 for each pair of materials: μ, e, μ_r, k, …
     const double* carried;        ///< 4 for each slot of the tile: those of CarriedContact
 };
 

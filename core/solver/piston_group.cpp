@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/piston_group.hpp"
 
+#include "core/contacts/attractions.hpp"
 #include "core/solver/step_parts.hpp"
 
 #include <numeric>
@@ -20,14 +21,16 @@ class ProblemMaker
 public:
     ProblemMaker(const ContactNetwork& network, const State& state, const Model& model, double h)
         : contacts_(network.contacts.pistons), arms_(network.contacts.piston_arms), state_(state), model_(model), h_(h),
-          rows_(rows_of_contact(model.physics)), body_of_sphere_(state.count(), unknown)
+          rows_(rows_of_contact(model.physics)), attractions_(attractions_of_pistons(network, model)),
+          body_of_sphere_(state.count(), unknown)
     {
     }
 
     PistonProblem make()
     {
         for (std::size_t k = 0; k < model_.pistons.size(); ++k)
-            add_piston_body(made_.problem, model_.pistons[k], state_.pistons[k], model_.gravity, h_, state_.time);
+            add_piston_body(
+                made_.problem, model_.pistons[k], state_.pistons[k], model_.gravity, attractions_[k], h_, state_.time);
         for (const std::size_t k : contacts_.indices()) add_contact(k);
         for (std::size_t k = 0; k < model_.pistons.size(); ++k)
             add_guide(made_.problem, k, model_.pistons[k], state_.pistons[k], h_, state_.time);
@@ -42,8 +45,9 @@ private:
     const std::vector<Vec3>& arms_;
     const State& state_;
     const Model& model_;
-    const double h_;   ///< of the step [s]
-    const Index rows_; ///< of a contact
+    const double h_;                          ///< of the step [s]
+    const Index rows_;                        ///< of a contact
+    const std::vector<WallLoad> attractions_; ///< by piston
     PistonProblem made_;
     std::vector<std::size_t> body_of_sphere_;
 
@@ -144,9 +148,7 @@ void PistonGroup::store(ContactNetwork& network, State& state) const
     for (const std::size_t k : contacts.indices()) {
         const auto own = own_.problem.rows_of(k, impulse);
         contacts.set_impulse(k, own_.bases[k] * own.head<contact_rows>());
-        if (contacts.has_rolling())
-            contacts.set_rolling_impulse(
-                k, own_.bases[k].rightCols<multibody::rolling_rows>() * own.tail<multibody::rolling_rows>());
+        if (contacts.has_rolling()) contacts.set_rolling_impulse(k, rolling_in_space(own_.bases[k], own));
     }
     for (std::size_t k = 0; k < state.pistons.size(); ++k) {
         PistonState& piston = state.pistons[k];

@@ -18,17 +18,17 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, 6>; ///< of a body with 
 /// τ/h of the guides: critical damping, as for the contacts (upsilon of law.hpp).
 constexpr double guide_relaxation = 2.0;
 
-/// The rolling axis of a row, a tangent.
+/// The axis of a rolling row, a tangent, or of the twisting row, the normal.
 auto rolling_axis(const Eigen::Matrix3d& basis, Index row)
 {
-    return basis.col(row - multibody::rolling_rows);
+    return basis.col(row == multibody::twisting_row ? 0 : row - multibody::rolling_rows);
 }
 
 } // namespace
 
 Index rows_of_contact(const ModelledPhysics& physics)
 {
-    return contact_rows + (physics.rolling ? multibody::rolling_rows : 0);
+    return contact_rows + (physics.rolling ? multibody::rolling_rows : 0) + (physics.twisting ? 1 : 0);
 }
 
 Eigen::Matrix3d contact_basis(const Vec3& normal)
@@ -75,6 +75,7 @@ void add_contact(Problem& problem, const TileContacts& contacts, std::size_t k, 
     Index rows, const std::vector<multibody::BodyRows>& bodies)
 {
     const Contact c = contacts.contact(k);
+    const RollingRow rolling = contacts.has_rolling() ? contacts.rolling(k) : RollingRow{};
     VectorXd compliance = VectorXd::Zero(rows), target = VectorXd::Zero(rows);
     compliance[0] = c.compliance;
     if (contacts.has_moving_walls()) target = in_rows(basis, rows, contacts.wall(k).velocity, contacts.wall(k).spin);
@@ -83,8 +84,16 @@ void add_contact(Problem& problem, const TileContacts& contacts, std::size_t k, 
                                .friction = c.friction,
                                .headroom = c.parting - c.target,
                                .compliance = c.compliance,
-                               .rolling_reach = contacts.has_rolling() ? contacts.rolling(k).reach : 0.0},
+                               .rolling_reach = rolling.reach,
+                               .twisting_reach = rolling.twist_reach},
         bodies, compliance, target);
+}
+
+Vec3 rolling_in_space(const Eigen::Matrix3d& basis, const Eigen::Ref<const VectorXd>& impulse)
+{
+    Vec3 sum = Vec3::Zero();
+    for (Index row = contact_rows; row < impulse.size(); ++row) sum += impulse[row] * rolling_axis(basis, row);
+    return sum;
 }
 
 VectorXd impulse_in_rows(const TileContacts& contacts, std::size_t k, const Eigen::Matrix3d& basis, Index rows)
@@ -93,8 +102,8 @@ VectorXd impulse_in_rows(const TileContacts& contacts, std::size_t k, const Eige
     return in_rows(basis, rows, contacts.impulse(k), rolling);
 }
 
-void add_piston_body(
-    Problem& problem, const Piston& piston, const PistonState& own, const Vec3& gravity, double h, double time)
+void add_piston_body(Problem& problem, const Piston& piston, const PistonState& own, const Vec3& gravity,
+    const WallLoad& attraction, double h, double time)
 {
     const Eigen::Matrix3d inertia = own.pose.rotation * piston.inertia * own.pose.rotation.transpose();
     MatrixXd mass = MatrixXd::Zero(6, 6);
@@ -102,7 +111,7 @@ void add_piston_body(
     mass.bottomRightCorner<3, 3>() = inertia;
     const Vec3 force = piston.mass * gravity + piston.load_at(time) * piston.guide;
     VectorXd momentum(6);
-    momentum << piston.mass * own.velocity + h * force, inertia * own.spin;
+    momentum << piston.mass * own.velocity + h * force + attraction.impulse, inertia * own.spin + attraction.torque;
     problem.add_body(mass, momentum);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/contacts/contact_network.hpp"
+#include "core/contacts/loads.hpp"
 #include "core/multibody/problem.hpp"
 #include "core/world/model.hpp"
 #include "core/world/state.hpp"
@@ -12,7 +13,7 @@ namespace talus
 
 inline constexpr Eigen::Index contact_rows = 1 + multibody::tangent_rows; ///< without those of rolling
 
-/// The rows that each contact of a scene has: contact_rows, and with rolling resistance two more.
+/// The rows that each contact of a scene has: contact_rows, with rolling resistance two more, and one with twisting.
 Eigen::Index rows_of_contact(const ModelledPhysics& physics);
 
 /// The normal and two tangents as columns, right-handed: the directions of a contact's rows. Its rolling rows have the
@@ -36,14 +37,17 @@ Eigen::MatrixXd sphere_rows(
 void add_contact(multibody::Problem& problem, const TileContacts& contacts, std::size_t k, const Eigen::Matrix3d& basis,
     Eigen::Index rows, const std::vector<multibody::BodyRows>& bodies);
 
+/// The angular impulse of a contact's rolling rows, the inverse of in_rows.
+Vec3 rolling_in_space(const Eigen::Matrix3d& basis, const Eigen::Ref<const Eigen::VectorXd>& impulse);
+
 /// The impulses that a contact has, by its rows.
 Eigen::VectorXd impulse_in_rows(
     const TileContacts& contacts, std::size_t k, const Eigen::Matrix3d& basis, Eigen::Index rows);
 
 /// A piston with the velocity of its centre and its spin; p = M v⁽⁰⁾ + h f.
-/// @param h of the step [s], which begins at this time [s]
+/// @param attraction what that does to it in the step; @param h of the step [s], which begins at this time [s]
 void add_piston_body(multibody::Problem& problem, const Piston& piston, const PistonState& own, const Vec3& gravity,
-    double h, double time);
+    const WallLoad& attraction, double h, double time);
 
 /// What a piston contributes to the rows of a contact that lies at `arm` from its centre: −(V + Ω × arm), and −Ω.
 Eigen::MatrixXd piston_rows(const Eigen::Matrix3d& basis, Eigen::Index rows, const Vec3& arm);

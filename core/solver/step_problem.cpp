@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/step_problem.hpp"
 
+#include "core/contacts/attractions.hpp"
 #include "core/solver/step_parts.hpp"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ using multibody::BodyRows;
 class Statement
 {
 public:
-    Statement(const State& state, const Model& model)
+    Statement(const State& state, const ContactNetwork& network, const Model& model)
         : state_(state), model_(model), rows_(rows_of_contact(model.physics))
     {
         auto& order = stated_.sphere_of_body;
@@ -27,14 +28,17 @@ public:
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::ranges::sort(order, {}, [&](std::size_t sphere) { return state.id[sphere]; });
         body_of_sphere_.resize(state.count());
+        std::vector<Body> attracted = state.bodies;
+        apply_attractions(network, attracted);
         for (std::size_t body = 0; body < order.size(); ++body) {
             body_of_sphere_[order[body]] = body;
             add_sphere_body(
-                stated_.problem, state.body(order[body]), model.physics.spin, model.time_step * model.gravity);
+                stated_.problem, attracted[order[body]], model.physics.spin, model.time_step * model.gravity);
         }
+        const std::vector<WallLoad> attractions = attractions_of_pistons(network, model);
         for (std::size_t k = 0; k < model.pistons.size(); ++k)
-            add_piston_body(
-                stated_.problem, model.pistons[k], state.pistons[k], model.gravity, model.time_step, state.time);
+            add_piston_body(stated_.problem, model.pistons[k], state.pistons[k], model.gravity, attractions[k],
+                model.time_step, state.time);
     }
 
     void add_sphere_contact(const TileContacts& contacts, std::size_t k)
@@ -102,7 +106,7 @@ private:
 
 StepProblem make_step_problem(const State& state, const ContactNetwork& network, const Model& model)
 {
-    Statement statement(state, model);
+    Statement statement(state, network, model);
     const StepContacts& contacts = network.contacts;
     for (std::size_t tile = 0; tile < contacts.spheres.size(); ++tile) {
         for (const std::size_t k : contacts.spheres[tile].indices())

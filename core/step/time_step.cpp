@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/step/time_step.hpp"
 
+#include "core/contacts/attractions.hpp"
 #include "core/deep_beds/position_pass.hpp"
 #include "core/law/thresholds.hpp"
 #include "core/solver/piston_group.hpp"
@@ -68,6 +69,7 @@ public:
         enter(Phase::warm_start);
         pistons_.emplace(network_, state_, model_, h_);
         add_forces(state_, model_.gravity, h_);
+        if (model_.physics.attraction) apply_attractions(network_, state_.bodies);
         apply_warm_start(network_, *pistons_, state_.bodies, model_.physics);
     }
 

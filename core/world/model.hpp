@@ -31,11 +31,13 @@ struct SolverSettings {
 /// What the scene needs; the rest does not exist in the step.
 struct ModelledPhysics {
     bool friction = false;
-    bool spin = false; ///< spheres turn; never without friction
-    bool rolling = false;
+    bool spin = false;     ///< spheres turn; never without friction
+    bool rolling = false;  ///< rolling rows, METHOD (8)
+    bool twisting = false; ///< … which resist twisting, too
     bool restitution = false;
     bool moving_walls = false; ///< as prescribed
     bool pistons = false;
+    bool attraction = false;
     bool wall_loads = false; ///< a sensor asks for them
 };
 
@@ -55,6 +57,7 @@ struct Model {
     double mean_diameter = 0.0;    ///< d, of all spheres that the scene makes; the unit of lengths in reports [m]
     double min_diameter = 0.0;
     double max_diameter = 0.0;
+    double attraction_range = 0.0; ///< of what attracts from furthest [m]
     ModelledPhysics physics;
     SolverSettings solver;
 

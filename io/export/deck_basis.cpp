@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/export/deck_basis.hpp"
 
+#include "io/text/input_error.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -113,6 +115,8 @@ std::string as_comment(const ExportNotes& notes)
 
 DeckBasis deck_basis(const scene::Scene& scene, const Simulation& simulation)
 {
+    if (simulation.model.physics.twisting)
+        throw InputError("the scene has twisting_friction, which decks do not write: set it to 0");
     return {scene, simulation, atom_types(simulation), room(simulation.model), modulus(simulation)};
 }
 

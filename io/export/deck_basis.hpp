@@ -40,6 +40,7 @@ struct DeckBasis {
     double modulus = 0.0; ///< Young's, of all materials [Pa]
 };
 
+/// @throws InputError where the scene has what decks cannot say
 DeckBasis deck_basis(const scene::Scene& scene, const Simulation& simulation);
 
 inline constexpr const char* spheres_file = "spheres.data";

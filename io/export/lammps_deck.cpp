@@ -2,6 +2,7 @@
 #include "io/export/lammps_deck.hpp"
 
 #include "io/export/mesh_parts.hpp"
+#include "io/text/input_error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,12 +15,28 @@ namespace talus
 namespace
 {
 
-/// A contact in the words of `pair_style granular` and `wall/gran`.
-std::string contact_words(const ContactLaw& law, bool rolling)
+/// The surface energy γ with which LAMMPS' dmt pulls as this does, with 4πγR* [J/m²].
+double surface_energy(const Model& model, int a, int b)
 {
-    std::string text = fmt::format("hertz/material ${{modulus}} {} {} tangential mindlin NULL 1.0 {} damping tsuji",
-        law.restitution, poisson, law.friction);
-    if (rolling)
+    if (!model.physics.attraction) return 0.0;
+    const Attraction& law = model.materials.attraction(a, b);
+    if (law.force > 0.0 || law.by_weight > 0.0 || law.volume > 0.0)
+        throw InputError(
+            "the scene has cohesion of a law other than dmt and jkr, which LAMMPS does not have, so there is "
+            "no deck of it");
+    return law.by_radius / (4.0 * std::acos(-1.0));
+}
+
+/// A contact of two materials in the words of `pair_style granular` and `wall/gran`.
+std::string contact_words(const Model& model, int a, int b)
+{
+    const ContactLaw& law = model.materials.between(a, b);
+    const double energy = surface_energy(model, a, b);
+    const std::string normal = energy > 0.0
+                                   ? fmt::format("dmt ${{modulus}} {} {} {:.10g}", law.restitution, poisson, energy)
+                                   : fmt::format("hertz/material ${{modulus}} {} {}", law.restitution, poisson);
+    std::string text = fmt::format("{} tangential mindlin NULL 1.0 {} damping tsuji", normal, law.friction);
+    if (model.physics.rolling)
         text += fmt::format(" rolling sds ${{rolling_stiffness}} ${{rolling_damping}} {}", law.rolling_friction);
     return text;
 }
@@ -42,14 +59,15 @@ std::string pair_commands(const DeckBasis& basis, ExportNotes& notes)
             "rolling friction is LAMMPS' spring, dashpot and slider (rolling sds): the same largest torque, "
             "which it reaches only after some rolling");
     }
+    if (model.physics.attraction)
+        notes.emplace_back("adhesion is LAMMPS' dmt: the same force while two overlap, and none beyond");
     text += "pair_style granular\n";
     const int types = static_cast<int>(basis.types.material.size());
     for (int a = 1; a <= types; ++a)
         for (int b = a; b <= types; ++b)
             text += fmt::format("pair_coeff {} {} {}\n", a, b,
-                contact_words(model.materials.between(basis.types.material[static_cast<std::size_t>(a - 1)],
-                                  basis.types.material[static_cast<std::size_t>(b - 1)]),
-                    rolling));
+                contact_words(model, basis.types.material[static_cast<std::size_t>(a - 1)],
+                    basis.types.material[static_cast<std::size_t>(b - 1)]));
     return text;
 }
 
@@ -277,9 +295,8 @@ void add_walls(const DeckBasis& basis, Deck& deck, Timeline& timeline)
             deck.text += fmt::format("region {} {}{} units box\n", part, regions[r], motion);
             for (const int type : basis.types.moving) {
                 const std::string fix = fmt::format("{}_{}", part, type);
-                timeline[wall.appear_at] +=
-                    fmt::format("fix {} {} wall/gran/region granular {} region {}\n", fix, type_group(basis, type),
-                        contact_words(model.materials.between(type - 1, wall.material), model.physics.rolling), part);
+                timeline[wall.appear_at] += fmt::format("fix {} {} wall/gran/region granular {} region {}\n", fix,
+                    type_group(basis, type), contact_words(model, type - 1, wall.material), part);
                 if (wall.remove_at < basis.simulation.duration)
                     timeline[wall.remove_at] += fmt::format("unfix {}\n", fix);
             }

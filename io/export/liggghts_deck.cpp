@@ -4,6 +4,7 @@
 #include "core/world/placed_wall.hpp"
 #include "io/export/stl_text.hpp"
 #include "io/run/wall_surface.hpp"
+#include "io/text/input_error.hpp"
 
 #include <fmt/format.h>
 
@@ -72,6 +73,13 @@ std::string properties(const DeckBasis& basis)
 std::string model_words(const Model& model)
 {
     return fmt::format("gran model hertz tangential history{}", model.physics.rolling ? " rolling_friction epsd2" : "");
+}
+
+void refuse_cohesion(const Model& model)
+{
+    if (model.physics.attraction)
+        throw InputError("the scene has cohesion; LIGGGHTS has none whose force is a given one (its sjkr goes with the "
+                         "area of the overlap), so there is no deck of it");
 }
 
 void note_contacts(const DeckBasis& basis, ExportNotes& notes)
@@ -303,6 +311,7 @@ void add_pour(const DeckBasis& basis, std::size_t index, Seeds& seeds, Deck& dec
 
 Deck liggghts_deck(const DeckBasis& basis)
 {
+    refuse_cohesion(basis.simulation.model);
     const Model& model = basis.simulation.model;
     Deck deck;
     deck.notes = common_notes(basis);

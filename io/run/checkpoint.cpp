@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr const char* latest = "checkpoint.latest";
 constexpr const char* previous = "checkpoint.previous";
 
-constexpr std::uint32_t format_version = 17;
+constexpr std::uint32_t format_version = 18;
 constexpr std::uint32_t byte_order = 0x01020304; ///< as this machine stores it
 
 /// What stands before the state. The magic and the format version keep their place in every format.

@@ -27,7 +27,8 @@ struct Unit {
 };
 
 constexpr std::array<int, 4> mass{1, 0, 0, 0}, length{0, 1, 0, 0}, time{0, 0, 1, 0}, angle{0, 0, 0, 1},
-    force{1, 1, -2, 0}, rate{0, 0, -1, 0}, turning{0, 0, -1, 1};
+    force{1, 1, -2, 0}, energy{1, 2, -2, 0}, pressure{1, -1, -2, 0}, volume{0, 3, 0, 0}, rate{0, 0, -1, 0},
+    turning{0, 0, -1, 1};
 constexpr long double turn = 2.0L * std::numbers::pi_v<long double>;
 
 constexpr std::pair<std::string_view, Unit> units[] = {{"m", {1.0L, length}}, {"km", {1e3L, length}},
@@ -35,8 +36,12 @@ constexpr std::pair<std::string_view, Unit> units[] = {{"m", {1.0L, length}}, {"
     {"µm", {1e-6L, length}}, {"in", {0.0254L, length}}, {"kg", {1.0L, mass}}, {"g", {1e-3L, mass}},
     {"mg", {1e-6L, mass}}, {"t", {1e3L, mass}}, {"s", {1.0L, time}}, {"ms", {1e-3L, time}}, {"us", {1e-6L, time}},
     {"µs", {1e-6L, time}}, {"min", {60.0L, time}}, {"h", {3600.0L, time}}, {"N", {1.0L, force}}, {"mN", {1e-3L, force}},
-    {"kN", {1e3L, force}}, {"MN", {1e6L, force}}, {"Hz", {1.0L, rate}}, {"kHz", {1e3L, rate}}, {"rad", {1.0L, angle}},
-    {"deg", {turn / 360, angle}}, {"°", {turn / 360, angle}}, {"rpm", {turn / 60, turning}}, {"1", {1.0L, {}}}};
+    {"kN", {1e3L, force}}, {"MN", {1e6L, force}}, {"µN", {1e-6L, force}}, {"uN", {1e-6L, force}}, {"J", {1.0L, energy}},
+    {"mJ", {1e-3L, energy}}, {"Pa", {1.0L, pressure}}, {"kPa", {1e3L, pressure}}, {"MPa", {1e6L, pressure}},
+    {"GPa", {1e9L, pressure}}, {"l", {1e-3L, volume}}, {"ml", {1e-6L, volume}}, {"µl", {1e-9L, volume}},
+    {"ul", {1e-9L, volume}}, {"nl", {1e-12L, volume}}, {"Hz", {1.0L, rate}}, {"kHz", {1e3L, rate}},
+    {"rad", {1.0L, angle}}, {"deg", {turn / 360, angle}}, {"°", {turn / 360, angle}}, {"rpm", {turn / 60, turning}},
+    {"1", {1.0L, {}}}};
 
 std::string_view without_spaces_before(std::string_view text)
 {

@@ -55,9 +55,10 @@ def pack_frame(frame, complete):
         return None
     force, a, b = (vtk_to_numpy(array) for array in arrays)
     force, a, b = numpy.nan_to_num(force), a.astype(numpy.int64), b.astype(numpy.int64)
-    mean, top = float(force.mean()), float(force.max())
-    if top <= 0:
+    pressing = force[force > 0.0]  # attraction may hold others that are pulled apart
+    if not len(pressing):
         return None
+    mean, top = float(pressing.mean()), float(pressing.max())
     strong = numpy.argsort(-force)[:CHAINS]
     strong = strong[force[strong] >= mean]
     strong = strong[numpy.lexsort((b[strong], a[strong]))]
@@ -72,7 +73,7 @@ def pack_frame(frame, complete):
     raw += numpy.rint(force[strong] / top * 255).astype(numpy.uint8).tobytes()
     touching = numpy.bincount(numpy.concatenate([a, b[b >= 0]])) if complete else numpy.empty(0, dtype=int)
     raw += numpy.minimum(touching, 255).astype(numpy.uint8).tobytes()
-    shares, _ = numpy.histogram(force / mean, bins=numpy.arange(0.0, LAST_BIN + BIN / 2, BIN))
+    shares, _ = numpy.histogram(pressing / mean, bins=numpy.arange(0.0, LAST_BIN + BIN / 2, BIN))
     return blob(raw), {"count": len(strong), "all": len(force), "widths": widths, "arm": longest, "mean": mean, "top": top,
-                       "complete": complete, "bin": BIN, "density": (shares / len(force) / BIN).round(6).tolist(),
+                       "complete": complete, "bin": BIN, "density": (shares / len(pressing) / BIN).round(6).tolist(),
                        "touching": len(touching)}

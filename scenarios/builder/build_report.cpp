@@ -56,8 +56,11 @@ std::string explain_model(const Model& model)
     };
     say(p.friction, "friction");
     say(p.spin, "rotation");
-    say(p.rolling, "rolling resistance");
+    say(std::ranges::any_of(model.materials.laws, [](const ContactLaw& law) { return law.rolling_friction > 0.0; }),
+        "rolling resistance");
+    say(p.twisting, "twisting resistance");
     say(p.restitution, "restitution");
+    say(p.attraction, "cohesion");
     say(meshes, "mesh walls");
     say(p.moving_walls, "moving walls");
     say(p.pistons, "walls of finite mass");

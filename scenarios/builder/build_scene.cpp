@@ -71,6 +71,7 @@ Model build_model(const scene::Scene& scene, const Materials& materials, const s
     model.gravity = scene.world.gravity;
     model.materials = materials;
     find_diameters(model, fills, pours);
+    add_attractions(model, scene);
     model.periodicity = build_periodicity(scene.world, model.max_diameter);
     model.walls = build_walls(scene, materials, model.periodicity, model.mean_diameter);
     model.pistons = build_pistons(scene, model.walls, model.periodicity);
@@ -78,8 +79,8 @@ Model build_model(const scene::Scene& scene, const Materials& materials, const s
         std::ranges::any_of(scene.sensor, [](const auto& own) { return own.kind == "wall_force"; });
     model.physics = model.needed_physics(scene.world.rotation);
     if (model.physics.rolling && !scene.world.rotation)
-        throw SceneError("world.rotation", "spheres that do not turn have no rolling resistance: leave out "
-                                           "'rolling_friction', or let them turn");
+        throw SceneError("world.rotation", "spheres that do not turn have no rolling and twisting resistance: leave "
+                                           "out 'rolling_friction' and 'twisting_friction', or let them turn");
     model.outlets = build_outlets(scene, model.mean_diameter);
     model.world = build_world(scene, model, fills, pours);
     model.contents = build_contents(model, fills, pours);

@@ -3,8 +3,10 @@
 
 #include "scenarios/builder/checks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 namespace talus
@@ -33,7 +35,7 @@ void add_law(Materials& materials, GivenPairs& given, const scene::Scene& scene,
             "a stiffness goes with stabilisation \"matched\" only; with \"projected\" contacts are rigid");
     given[a * n + b] = given[b * n + a] = 1;
     materials.laws[a * n + b] = materials.laws[b * n + a] = {
-        contact.friction, contact.restitution, contact.rolling_friction, contact.stiffness};
+        contact.friction, contact.restitution, contact.rolling_friction, contact.stiffness, contact.twisting_friction};
 }
 
 std::set<std::string> set_of(const std::vector<std::string>& names)
@@ -90,7 +92,46 @@ void require_laws(const Materials& materials, const GivenPairs& given, const sce
         }
 }
 
+/// What a table of cohesion says, but for its range.
+Attraction attraction_of(const scene::CohesionTable& table)
+{
+    constexpr double pi = std::numbers::pi;
+    if (table.law == "constant") return {.force = table.force};
+    if (table.law == "dmt") return {.by_radius = 2.0 * pi * table.work_of_adhesion};
+    if (table.law == "jkr") return {.by_radius = 1.5 * pi * table.work_of_adhesion};
+    if (table.law == "bond_number") return {.by_weight = table.bond_number};
+    return {.by_radius = 4.0 * pi * table.surface_tension * std::cos(table.contact_angle), .volume = table.volume};
+}
+
 } // namespace
+
+void add_attractions(Model& model, const scene::Scene& scene)
+{
+    constexpr double usual_range = 0.01; // mean diameters: no sign of a rounded gap decides
+    Materials& materials = model.materials;
+    for (std::size_t k = 0; k < scene.contact.size(); ++k) {
+        const auto& contact = scene.contact[k];
+        const scene::CohesionTable& table = contact.cohesion;
+        if (table.law == "none") continue;
+        const std::string key = key_path("contact", k, "cohesion");
+        Attraction law = attraction_of(table);
+        if (law.force + law.by_radius + law.by_weight == 0.0) continue;
+        if (table.law == "bond_number" && model.gravity.isZero())
+            throw SceneError(key + ".bond_number", "a Bond number is a multiple of a weight, and there is no gravity");
+        law.range = table.law == "liquid" ? (1.0 + 0.5 * table.contact_angle) * std::cbrt(table.volume)
+                    : table.range > 0.0   ? table.range
+                                          : usual_range * model.mean_diameter;
+        if (law.range > 0.5 * model.min_diameter)
+            throw SceneError(key + (table.law == "liquid" ? ".volume" : ".range"),
+                "two would attract each other over a gap of more than half the smallest diameter, which is the most");
+        materials.attractions.resize(materials.laws.size());
+        const auto a = static_cast<std::size_t>(material_index(materials, contact.between[0], key));
+        const auto b = static_cast<std::size_t>(material_index(materials, contact.between[1], key));
+        const std::size_t n = materials.list.size();
+        materials.attractions[a * n + b] = materials.attractions[b * n + a] = law;
+        model.attraction_range = std::max(model.attraction_range, law.range);
+    }
+}
 
 Materials build_materials(const scene::Scene& scene)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/builder/step_choice.hpp"
 
+#include "core/law/attraction.hpp"
 #include "core/law/thresholds.hpp"
 #include "scenarios/builder/closing_speed.hpp"
 #include "scenarios/scene_error.hpp"
@@ -24,6 +25,17 @@ constexpr double borne_step = 0.0072; ///< with two sweeps, below a sphere of `b
 constexpr double borne_ratio = 800.0; ///< grains overlap by 0.02 d (measured)
 constexpr double beyond_sense = 10.0; ///< times as fast as anything should come to be
 
+/// The force with which two mean spheres of these materials press on each other by attraction alone [N].
+double attraction_between(const Model& model, int a, int b)
+{
+    if (model.materials.attractions.empty()) return 0.0;
+    const double d = model.mean_diameter;
+    const double density = std::min(model.materials.list[static_cast<std::size_t>(a)].density,
+        model.materials.list[static_cast<std::size_t>(b)].density);
+    const double weight = density * std::numbers::pi / 6.0 * d * d * d * model.gravity.norm();
+    return AttractionOfPair(model.materials.attraction(a, b), 0.25 * d, weight).force(0.0);
+}
+
 /// Of a mean sphere of the lightest material: what a bed of depth Z presses on each of its contacts, and how much of
 /// the softness that a step brings its materials have anyway.
 struct Softness {
@@ -34,15 +46,19 @@ struct Softness {
     {
         const Model& model = simulation.model;
         const double d = model.mean_diameter;
-        double density = infinity, stiffness = 0.0;
+        double density = infinity, stiffness = 0.0, attraction = 0.0;
         const std::set<int> materials = sphere_materials(simulation);
         for (const int a : materials) {
             density = std::min(density, model.materials.list[static_cast<std::size_t>(a)].density);
-            for (const int b : materials) stiffness = std::max(stiffness, model.materials.between(a, b).stiffness);
+            for (const int b : materials) {
+                stiffness = std::max(stiffness, model.materials.between(a, b).stiffness);
+                attraction = std::max(attraction, attraction_between(model, a, b));
+            }
         }
+        const double mass = density * std::numbers::pi / 6.0 * d * d * d, inverse_mass_sum = 2.0 / mass;
         load = overlap_of_layer * ((model.gravity.norm() + bed.wall_acceleration) * bed.borne_depth() +
-                                      2.0 * bed.surcharge / (packed_share * density * d));
-        const double inverse_mass_sum = 2.0 / (density * std::numbers::pi / 6.0 * d * d * d);
+                                      2.0 * bed.surcharge / (packed_share * density * d)) +
+               sigma_per_sweep / (4.0 * upsilon) * inverse_mass_sum * attraction;
         given = 4.0 * upsilon / (sigma_per_sweep * inverse_mass_sum * stiffness);
     }
 };

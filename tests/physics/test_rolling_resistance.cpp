@@ -116,4 +116,39 @@ TEST_CASE("rolling resistance between two spheres has the arm R* = r₁ r₂ / (
     }
 }
 
+TEST_CASE("a sphere that spins about its normal stops after 2 r ω/(5 μ_t g)", "[twisting]")
+{
+    const double spin = 100.0, twisting_friction = 0.1;
+    ContactLaw law = resistant(0.5, GENERATE(0.0, 0.1));
+    law.twisting_friction = twisting_friction;
+    World world = sphere_on_plane(law, GENERATE(rigid_settings(), matched_settings()), time_step, Vec3::Zero(),
+        Vec3(0, 0, GENERATE(1.0, -1.0) * spin));
+    const double expected = 2.0 * standard_radius * spin / (5.0 * twisting_friction * standard_gravity);
+    const int steps = advance_until(
+        world, [](const World& w) { return w.angular_velocity().norm() < 1e-9; }, 10000);
+    CHECK(steps * time_step == Approx(expected).margin(time_step * 1.01));
+    CHECK(world.velocity().norm() < 1e-12);
+}
+
+TEST_CASE("without twisting friction a sphere spins on about its normal", "[twisting]")
+{
+    World world = sphere_on_plane(resistant(0.5, 0.1), rigid_settings(), time_step, Vec3::Zero(), Vec3(0, 0, 100.0));
+    world.step(500);
+    CHECK(world.angular_velocity().z() == Approx(100.0).epsilon(1e-12));
+}
+
+TEST_CASE("two spheres that twist against each other come to turn together, and keep angular momentum", "[twisting]")
+{
+    ContactLaw law = resistant(0.5, 0.0);
+    law.twisting_friction = 0.05;
+    World world = make_world(law, GENERATE(rigid_settings(), matched_settings()), time_step);
+    world.model.gravity.setZero();
+    world.attract({.force = 0.01, .range = 0.01 * standard_radius}); // so that they press on each other
+    world.add_sphere(standard_radius * Vec3::UnitX(), Vec3::Zero(), Vec3(50.0, 0, 0));
+    world.add_sphere(-standard_radius * Vec3::UnitX(), Vec3::Zero(), Vec3(-10.0, 0, 0));
+    world.step(3000);
+    CHECK(world.angular_velocity(0).x() == Approx(20.0).epsilon(1e-9));
+    CHECK(world.angular_velocity(1).x() == Approx(20.0).epsilon(1e-9));
+}
+
 } // namespace talus::test

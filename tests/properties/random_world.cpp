@@ -49,6 +49,7 @@ public:
         set_diameters();
         if (wish_.pistons && has_up_ && draw_.chance(0.2)) place_piston();
         draw_velocities();
+        if (wish_.attraction) draw_attraction();
         world_.model.contents = contents();
         return std::move(made_);
     }
@@ -117,6 +118,17 @@ private:
             ", k ", spheres.stiffness, " N/m, gravity ", told(world_.model.gravity), ", h ", h_, " s, p ",
             world_.model.solver.push_out_speed, " m/s, d_min ", d_min_, " m, steps before solved to ",
             made_.warm_up_tolerance);
+    }
+
+    void draw_attraction()
+    {
+        const double weight = *std::ranges::min_element(mass_) * standard_gravity;
+        const Attraction law{.force = weight * draw_.log_uniform(1e-2, 1e3),
+            .range = d_min_ * draw_.log_uniform(1e-3, 0.5),
+            .volume = draw_.chance(0.5) ? 0.0 : std::pow(d_min_, 3) * draw_.log_uniform(1e-5, 1e-2)};
+        world_.attract(law);
+        tell("attract each other with ", law.force / weight, " weights of the lightest, up to a gap of ",
+            law.range / d_min_, " d, as bridges of ", law.volume / std::pow(d_min_, 3), " d3");
     }
 
     void draw_steps()

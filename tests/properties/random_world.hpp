@@ -18,6 +18,7 @@ struct Wish {
     bool moving_walls = true;
     bool pistons = true;
     bool press = false; ///< two walls close on the spheres
+    bool attraction = false;
 };
 
 /// A small world that a seed stands for: a few spheres, some of which touch or are about to, with or without walls, and

@@ -53,10 +53,29 @@ struct Books {
     StepReport report;
 };
 
+/// What attraction took out of the motion in the step that the world has made, as gravity is counted.
+double taken_by_attraction(const World& before, const World& after)
+{
+    double sum = 0.0;
+    const auto mean_velocity = [&](std::int32_t sphere) {
+        const std::int64_t id = after.state.id[static_cast<std::size_t>(sphere)];
+        return Vec3(0.5 * (before.velocity(id) + after.velocity(id)));
+    };
+    for_each_contact(after.network, [&](const TileContacts& contacts, std::size_t k, bool with_wall) {
+        if (contacts.attraction(k) == 0.0) return;
+        const Vec3 other = !with_wall                    ? mean_velocity(contacts.b(k))
+                           : contacts.has_moving_walls() ? contacts.wall(k).velocity
+                                                         : Vec3::Zero().eval();
+        sum += contacts.attraction(k) * contacts.normal(k).dot(mean_velocity(contacts.a(k)) - other);
+    });
+    return sum;
+}
+
 Books make_counted_part(World& world, int parts)
 {
     const double h = world.model.time_step / parts;
     const Bodies before = bodies_of(world);
+    const World at_first = world;
     Books books;
     books.report = make_part(world, parts);
     const Bodies after = bodies_of(world);
@@ -65,7 +84,8 @@ Books make_counted_part(World& world, int parts)
     const double fallen = 0.5 * h * (before.power + after.power),
                  walls = books.report.outcome.wall_work + books.report.outcome.wall_gain_work;
     books.change = after.kinetic - before.kinetic - fallen;
-    books.rise = books.change + springs_after - springs_before - walls;
+    const double attraction = world.model.physics.attraction ? taken_by_attraction(at_first, world) : 0.0;
+    books.rise = books.change + springs_after - springs_before - walls + attraction;
     const double still = 1e-9 * world.model.min_diameter / h; // slower than this is at rest
     double least = 0.0;
     for (std::size_t i = 0; i < world.state.count(); ++i)
@@ -74,7 +94,11 @@ Books make_counted_part(World& world, int parts)
         const Piston& piston = world.model.pistons[k];
         least += 0.5 * piston.mass * piston.free_gain(world.model.gravity, world.state.time, h).squaredNorm();
     }
-    books.scale = std::max({before.kinetic, after.kinetic, springs_before, springs_after, std::abs(walls), least});
+    for_each_contact(world.network, [&](const TileContacts& contacts, std::size_t k, bool) {
+        least += 0.5 * contacts.contact(k).inverse_mass_sum * std::pow(contacts.attraction(k), 2);
+    });
+    books.scale = std::max(
+        {before.kinetic, after.kinetic, springs_before, springs_after, std::abs(walls), std::abs(attraction), least});
     return books;
 }
 
@@ -275,6 +299,13 @@ Verdict pressed(std::uint64_t seed)
 TEST_CASE("P1 without friction and push-out no step adds energy", "[energy]")
 {
     hold("energy", [](std::uint64_t seed) { return energy_of_a_step(seed, {{.friction = false, .push_out = false}}); });
+}
+
+TEST_CASE("P1 with attraction no step adds energy but what that gives", "[energy]")
+{
+    hold("energy_attraction", [](std::uint64_t seed) {
+        return energy_of_a_step(seed, {{.friction = false, .push_out = false, .pistons = false, .attraction = true}});
+    });
 }
 
 TEST_CASE("P1 the books say what springs hold, what pushing out puts in, and what positions are lifted by", "[energy]")

@@ -26,6 +26,7 @@ SCENES = Path(__file__).resolve().parents[2] / "scenarios"
 PROGRAMS = {"lammps": "lmp", "liggghts": "liggghts"}
 ON_ONE_THREAD = {**os.environ, "OMP_NUM_THREADS": "1"}
 MOMENT = 0.004  # s
+REFUSED = {("wet_pile", "lammps"), ("wet_pile", "liggghts"), ("powder_drum", "liggghts")}  # for their cohesion
 # The source of the pile: 1100 spheres a second. LAMMPS lets them in in bursts, a twentieth of a second apart.
 POUR_END, POURED, POURED_WITHIN = 0.1, 110.0, 0.25
 # Beads fall into the hopper, whose wall is a mesh over a closed gate at z = 0, and come to rest.
@@ -75,6 +76,10 @@ def check_scenes(talus, programs, folder):
     for scene in sorted(SCENES.glob("*.toml")):
         for program in programs:
             deck = folder / f"{scene.stem}-{program}"
+            if (scene.stem, program) in REFUSED:
+                if "there is no deck of it" not in export(talus, scene, program, deck):
+                    yield f"{scene.stem} for {program}: it is not refused"
+                continue
             problem = export(talus, scene, program, deck, "--until", str(MOMENT)) or run_deck(program, deck)
             if problem:
                 yield f"{scene.stem} for {program}: {problem}"

@@ -57,6 +57,13 @@ void World::add_wall(Shape shape, WallMotion motion)
         std::move(motion)});
 }
 
+void World::attract(const Attraction& law)
+{
+    model.materials.attractions.assign(model.materials.laws.size(), law);
+    model.attraction_range = law.range;
+    model.physics.attraction = law.range > 0.0;
+}
+
 std::size_t World::add_piston(Shape shape, double mass, const Vec3& guide, std::vector<LoadPoint> load)
 {
     const std::size_t index = model.pistons.size(), wall = model.walls.size();
@@ -177,7 +184,8 @@ World make_world(
     model.world = {Vec3::Constant(-1e6), Vec3::Constant(1e6)};
     model.materials.list = {{"sphere", standard_density}, {"wall", standard_density}};
     model.materials.laws = {between_spheres, at_walls, at_walls, at_walls};
-    model.physics.rolling = any_law(model.materials, &ContactLaw::rolling_friction);
+    model.physics.twisting = any_law(model.materials, &ContactLaw::twisting_friction);
+    model.physics.rolling = model.physics.twisting || any_law(model.materials, &ContactLaw::rolling_friction);
     model.physics.friction = model.physics.rolling || any_law(model.materials, &ContactLaw::friction);
     model.physics.spin = model.physics.friction;
     model.physics.restitution = any_law(model.materials, &ContactLaw::restitution);

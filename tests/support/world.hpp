@@ -51,6 +51,8 @@ struct World {
         const Vec3& angular_velocity = Vec3::Zero(), double radius = standard_radius,
         double density = standard_density);
     void add_wall(Shape shape, WallMotion motion = {});
+    /// All attract each other so.
+    void attract(const Attraction& law);
     /// A wall of finite mass, of even density in the box round it; returns its index among the pistons.
     std::size_t add_piston(Shape shape, double mass, const Vec3& guide, std::vector<LoadPoint> load = {});
     void add_plane(const Vec3& point, const Vec3& normal) { add_wall(Plane{point, normal}); }

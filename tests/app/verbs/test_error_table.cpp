@@ -221,6 +221,16 @@ const std::vector<Situation> situations = {
         check + " --set 'world.periodic=[\"z\"]' --set 'world.min=[-inf,-inf,0]' --set 'world.max=[inf,inf,1]'"},
     {"rolling resistance without rotation", "",
         check + " --set world.rotation=false --set contact.0.rolling_friction=0.1"},
+    set("an unknown law of cohesion", "contact.0.cohesion.law=\"glue\""),
+    set("cohesion without what its law needs", "contact.0.cohesion.law=\"liquid\""),
+    {"a negative work of adhesion", "",
+        check + " --set contact.0.cohesion.law=dmt --set contact.0.cohesion.work_of_adhesion=-1"},
+    {"a key of another law of cohesion", "",
+        check + " --set contact.0.cohesion.law=dmt --set contact.0.cohesion.work_of_adhesion=1 --set "
+                "contact.0.cohesion.volume=1e-9"},
+    {"cohesion over half a diameter", "",
+        check + " --set contact.0.cohesion.law=constant --set 'contact.0.cohesion.force=\"1 mN\"' --set "
+                "contact.0.cohesion.range=0.1"},
     set("neither true nor false", "world.rotation=1"),
     size("a normal distribution cut to nothing",
         "{ distribution = \"normal\", mean = 0.01, deviation = 0.001, min = 0.05, max = 0.06 }"),

@@ -160,7 +160,7 @@ TEST_CASE("a contact asks for its parting speed at most, and friction is within 
     const auto lane = static_cast<std::size_t>(GENERATE(range(0, pack_size)));
     const double parting = GENERATE(-2.0, -1.0, 0.0, 0.9, 1.1, infinity);
     TileContacts contacts;
-    contacts.clear(false, false);
+    contacts.clear({});
     contacts.append_pack();
     std::vector<Body> bodies(2 * pack_size, Body{.inverse_mass = w / 2, .spin_radius = standard_radius});
     for (int k = 0; k < pack_size; ++k) {
@@ -179,7 +179,7 @@ TEST_CASE("a contact asks for its parting speed at most, and friction is within 
         CAPTURE(kernels->instructions);
         TileContacts swept = contacts, none;
         bodies = before;
-        none.clear(false, false);
+        none.clear({});
         constexpr std::size_t variant = Rows<true, true, false, false>::index;
         kernels->sweep[variant].relax(swept.span(), none.span(), reinterpret_cast<double*>(bodies.data()), 1.0);
         for (std::size_t k = 0; k < pack_size; ++k) {
@@ -194,7 +194,7 @@ TEST_CASE("a contact asks for its parting speed at most, and friction is within 
 TEST_CASE("contacts of one sphere are in packs of their own, more than a window of them", "[packed_sweep]")
 {
     TileContacts contacts;
-    contacts.clear(false, false);
+    contacts.clear({});
     PackFiller filler;
     filler.begin(contacts, 300);
     constexpr std::int32_t many = 150;

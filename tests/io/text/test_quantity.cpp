@@ -15,6 +15,10 @@ TEST_CASE("a number with a unit is brought to another one", "[quantity]")
     CHECK(in("+2.5 g/cm3", "kg/m3") == Approx(2500.0));
     CHECK(in("2.5 g / cm³", "kg/m3") == Approx(2500.0));
     CHECK(in("2.5 g cm^-3", "kg/m3") == Approx(2500.0));
+    CHECK(in("72 mN/m", "J/m2") == Approx(0.072));
+    CHECK(in("50 mJ/m2", "N/m") == Approx(0.05));
+    CHECK(in("20 nl", "m3") == Approx(2e-11));
+    CHECK(in("5 MPa", "N/m2") == Approx(5e6));
     CHECK(in("60 rpm", "rad/s") == Approx(2.0 * std::numbers::pi));
     CHECK(in("180 deg/s", "rad/s") == Approx(std::numbers::pi));
     CHECK(in("36 km/h", "m/s") == Approx(10.0));

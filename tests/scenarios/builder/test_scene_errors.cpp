@@ -33,6 +33,17 @@ const std::vector<Mistake> of_materials = {
          s.wall[0].material = "steel";
      },
         "contact", "no [[contact]] between glass and steel, which can touch"},
+    {[](S& s) {
+         s.contact[0].cohesion = {.law = "bond_number", .bond_number = 2.0};
+         s.world.gravity = Vec3::Zero();
+         s.time.step = {1e-4, ""};
+     },
+        "contact[0].cohesion.bond_number", "a Bond number is a multiple of a weight, and there is no gravity"},
+    {[](S& s) { s.contact[0].cohesion = {.law = "constant", .force = 1.0, .range = 0.1}; }, "contact[0].cohesion.range",
+        "two would attract each other over a gap of more than half the smallest diameter, which is the most"},
+    {[](S& s) { s.contact[0].cohesion = {.law = "liquid", .surface_tension = 0.07, .volume = 1e-3}; },
+        "contact[0].cohesion.volume",
+        "two would attract each other over a gap of more than half the smallest diameter, which is the most"},
 };
 
 const std::string too_far = "it reaches more than 1e9 diameters from the origin, where numbers are too coarse for "

@@ -141,7 +141,8 @@ const std::vector<Mistake> of_motions = {
          s.contact[0].rolling_friction = 0.1;
      },
         "world.rotation",
-        "spheres that do not turn have no rolling resistance: leave out 'rolling_friction', or let them turn"},
+        "spheres that do not turn have no rolling and twisting resistance: leave out 'rolling_friction' and "
+        "'twisting_friction', or let them turn"},
     {repeat({"x"}, [](S& s) { s.world.max.x() = infinity; }), "world.periodic",
         "along the periodic axis x 'min' and 'max' must be given"},
     {repeat({"y"}, [](S& s) { s.world.max.y() = 0.0219; }), "world.periodic",

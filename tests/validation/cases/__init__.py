@@ -3,4 +3,4 @@
 
 CASES = ("beverloo", "discharge", "conical_hopper", "clogging", "janssen", "repose", "column_collapse", "drum", "incline",
          "plane_shear", "packings", "force_distribution", "granular_gas", "crater", "chung_ooi", "segregation",
-         "round_robin", "same_scene")
+         "round_robin", "same_scene", "cohesion")
