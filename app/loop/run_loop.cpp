@@ -80,17 +80,21 @@ void RunLoop::begin()
 
 void RunLoop::go_on(Archive& checkpoint)
 {
-    std::uint64_t metrics_size = 0;
-    persist(checkpoint, metrics_size);
+    WrittenFile metrics;
+    persist(checkpoint, metrics);
     if (!checkpoint.at_end()) throw ArchiveError("the saved state is longer than what this scene needs");
     recent_.bytes = checkpoint.take_bytes(); // room for the next one
     const double time = simulation_.state.time;
     if (has_reached(simulation_, simulation_.duration))
         throw InputError(fmt::format("{}: the run is at t = {:.6g} s already, and cannot end at {:.6g} s",
             folder_.string(), time, simulation_.duration));
-    metrics_.emplace(folder_ / "metrics.csv", metrics_columns(simulation_, watched_walls_), metrics_size);
+    metrics_.emplace(folder_ / "metrics.csv", metrics_columns(simulation_, watched_walls_), metrics);
     progress_ = Progress(verbosity_, simulation_);
     frames_.cut_back();
+    if (const auto damaged = frames_.damaged(); !damaged.empty())
+        warn("{}: {} of the frames that were written {} no longer there or cut short, first {}; the run goes on "
+             "without\n",
+            folder_.string(), damaged.size(), damaged.size() == 1 ? "is" : "are", damaged.front());
     lost_ = simulation_.escaped.size();
     write_lost(folder_, simulation_.escaped);
     standing_ = standing_walls(simulation_.model, time);
@@ -221,11 +225,11 @@ void RunLoop::take_checkpoint()
 {
     clock_.begin(RunPhase::output);
     const double begun = clock_.wall();
-    std::uint64_t metrics_size = metrics_->size();
+    WrittenFile metrics = metrics_->written();
     Archive archive;
     archive.take_room(std::move(recent_.bytes));
     archive(origin_);
-    persist(archive, metrics_size);
+    persist(archive, metrics);
     recent_ = {archive.take_bytes(), simulation_.state.time, clock_.wall(), clock_.wall() - begun};
 }
 
@@ -244,9 +248,9 @@ void RunLoop::write_checkpoint()
 }
 
 /// The clock comes last: of the state it is all that differs from run to run.
-void RunLoop::persist(Archive& archive, std::uint64_t& metrics_size)
+void RunLoop::persist(Archive& archive, WrittenFile& metrics)
 {
-    archive(simulation_, frames_, metrics_size, statistics_, clock_);
+    archive(simulation_, frames_, metrics, statistics_, clock_);
 }
 
 void RunLoop::write_what_is_due(const StepReport& report)

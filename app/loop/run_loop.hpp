@@ -83,7 +83,7 @@ private:
     bool checkpoint_is_due();
     void take_checkpoint();
     void write_checkpoint();
-    void persist(Archive& archive, std::uint64_t& metrics_size);
+    void persist(Archive& archive, WrittenFile& metrics);
 
     void sample_sensors(const StepReport& report);
     void write_metrics(const StepReport& report);

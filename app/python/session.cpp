@@ -208,8 +208,8 @@ void Session::after_step(const StepReport& report)
 void Session::persist(Archive& archive)
 {
     std::array<std::vector<double>, 4> frames;
-    std::uint64_t metrics_size = 0;
-    archive(opened_.simulation, frames[0], frames[1], frames[2], frames[3], metrics_size, statistics_, clock_);
+    WrittenFile metrics;
+    archive(opened_.simulation, frames[0], frames[1], frames[2], frames[3], metrics, statistics_, clock_);
 }
 
 void Session::put_back(Archive& archive)

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <numeric>
 
 namespace talus
@@ -241,6 +242,22 @@ void FrameWriter::cut_back(const Series& series) const
     for (std::size_t k = series.times.size(); std::filesystem::remove(folder_ / frame_file(series.name, k), error);)
         ++k;
     if (error) throw OutputError(fmt::format("{}: cannot be removed: {}", folder_.string(), error.message()));
+}
+
+std::vector<std::string> FrameWriter::damaged() const
+{
+    constexpr std::string_view end = "</VTKFile>";
+    std::vector<std::string> names;
+    for (const Series* series : {&particles_, &contacts_, &walls_, &moving_walls_})
+        for (std::size_t k = 0; k < series->times.size(); ++k) {
+            const std::string name = frame_file(series->name, k);
+            std::ifstream file(folder_ / name, std::ios::binary);
+            std::string last(end.size() + 1, '\0'); // and a line's end
+            file.seekg(-static_cast<std::streamoff>(last.size()), std::ios::end);
+            file.read(last.data(), static_cast<std::streamsize>(last.size()));
+            if (!file || last.find(end) == std::string::npos) names.push_back(name);
+        }
+    return names;
 }
 
 bool has_64_bit_frames(const Model& model)

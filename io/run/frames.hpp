@@ -52,6 +52,9 @@ public:
     /// @throws OutputError
     void cut_back() const;
 
+    /// The names of those frames known here that are no longer there, or not to their end.
+    std::vector<std::string> damaged() const;
+
 private:
     struct Series {
         std::string name;

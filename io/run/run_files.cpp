@@ -17,6 +17,7 @@
 
 #include <fcntl.h>
 #include <unistd.h>
+#include <zlib.h>
 
 namespace talus
 {
@@ -248,23 +249,32 @@ void write_table(const fs::path& folder, const std::string& name, const Table& t
     write_atomically(folder / fmt::format("{}{}.csv", profile_prefix, name), text);
 }
 
+void WrittenFile::add(std::string_view bytes)
+{
+    size += bytes.size();
+    sum =
+        static_cast<std::uint32_t>(::crc32_z(sum, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+}
+
 MetricsFile::MetricsFile(const fs::path& path, const std::vector<std::string>& columns)
     : path_(path), columns_(columns.size()), stream_(path)
 {
     write_line(header_line(columns));
 }
 
-MetricsFile::MetricsFile(const fs::path& path, const std::vector<std::string>& columns, std::uint64_t size)
-    : path_(path), columns_(columns.size()), size_(size)
+MetricsFile::MetricsFile(const fs::path& path, const std::vector<std::string>& columns, const WrittenFile& written)
+    : path_(path), columns_(columns.size())
 {
-    std::error_code error;
-    const std::uintmax_t there = fs::file_size(path, error);
-    if (error) throw InputError(fmt::format("{}: the run cannot go on without it: {}", path.string(), error.message()));
-    std::string header;
-    std::getline(std::ifstream(path), header);
-    if (there < size || header != header_line(columns))
+    std::ifstream file(path, std::ios::binary);
+    if (!file)
+        throw InputError(fmt::format("{}: the run cannot go on without it: {}", path.string(), std::strerror(errno)));
+    std::string text(written.size, '\0');
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (file) written_.add(text);
+    if (written_ != written || !text.starts_with(header_line(columns) + '\n'))
         throw InputError(fmt::format("{}: the file is not as the run left it", path.string()));
-    fs::resize_file(path, size, error);
+    std::error_code error;
+    fs::resize_file(path, written.size, error);
     if (error) refuse_output(path, error.message());
     stream_.open(path, std::ios::app);
     if (!stream_) refuse_output(path, std::strerror(errno));
@@ -290,7 +300,7 @@ void MetricsFile::write_line(const std::string& line)
 {
     stream_ << line << '\n' << std::flush;
     if (!stream_) refuse_output(path_, std::strerror(errno));
-    size_ += line.size() + 1;
+    written_.add(line + '\n');
 }
 
 } // namespace talus

@@ -63,6 +63,16 @@ std::string column_name(const std::string& name, const std::string& unit);
 /// @throws OutputError
 void write_table(const std::filesystem::path& folder, const std::string& name, const Table& table);
 
+/// What a file has that a run goes on with: its size [B] and the CRC-32 of that.
+struct WrittenFile {
+    std::uint64_t size = 0;
+    std::uint32_t sum = 0;
+
+    void add(std::string_view bytes);
+    void persist(Archive& archive) { archive(size, sum); }
+    bool operator==(const WrittenFile&) const = default;
+};
+
 /// metrics.csv: a header of names with units, then a row a sample, flushed at once.
 class MetricsFile
 {
@@ -72,9 +82,9 @@ public:
     MetricsFile(const std::filesystem::path& path, const std::vector<std::string>& columns);
 
     /// Goes on with the file of a run that is resumed.
-    /// @param size to which the file is cut back [B]
+    /// @param written to which the file is cut back
     /// @throws InputError where the file is not the one that was left, OutputError
-    MetricsFile(const std::filesystem::path& path, const std::vector<std::string>& columns, std::uint64_t size);
+    MetricsFile(const std::filesystem::path& path, const std::vector<std::string>& columns, const WrittenFile& written);
 
     /// @pre one value for each column
     /// @throws OutputError, at full disk too
@@ -84,12 +94,12 @@ public:
     /// @throws OutputError
     void sync();
 
-    std::uint64_t size() const { return size_; } ///< of the file [B]
+    const WrittenFile& written() const { return written_; }
 
 private:
     std::filesystem::path path_;
     std::size_t columns_;
-    std::uint64_t size_ = 0;
+    WrittenFile written_;
     std::ofstream stream_;
 
     void write_line(const std::string& line);

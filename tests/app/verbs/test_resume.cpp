@@ -104,6 +104,32 @@ TEST_CASE("a plate of finite mass that presses on beads goes on where it was", "
     CHECK(place.exists("parts/frames/moving_walls_000001.vtp"));
 }
 
+TEST_CASE("spheres that stick to each other and to a plate go on where they were", "[app][resume]")
+{
+    const Workplace place;
+    place.write("scene.toml", loaded_beads());
+    const std::string sticky = " --set 'contact.0.cohesion={law=\"bond_number\", bond_number=5.0, range=1e-3}' --set "
+                               "contact.0.twisting_friction=0.1";
+    REQUIRE(place.talus("run scene.toml -o whole --threads 2" + sticky).exit_code == 0);
+    REQUIRE(place.talus("run scene.toml -o parts --until 0.17 --threads 1" + sticky).exit_code == 0);
+    REQUIRE(place.talus("resume parts --until 0.21 --threads 2").exit_code == 0);
+    REQUIRE(place.talus("resume parts --until 0.4 --threads 1").exit_code == 0);
+    CHECK(differences(place.path("whole"), place.path("parts")) == none);
+    CHECK_THAT(place.read("whole/metrics.csv"), Contains("attraction_energy_J"));
+}
+
+TEST_CASE("a run says which of its frames are gone or cut short when it goes on", "[app][resume]")
+{
+    const Workplace place;
+    place.write("scene.toml", beads_in_a_box);
+    REQUIRE(place.talus("run scene.toml -o out --until 0.1").exit_code == 0);
+    place.shell("rm out/frames/particles_000001.vtp; truncate -s -20 out/frames/particles_000002.vtp");
+    const Outcome outcome = place.talus("resume out --until 0.12");
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.err, Contains("out: 2 of the frames that were written are no longer there or cut short, first "
+                                     "frames/particles_000001.vtp; the run goes on without"));
+}
+
 TEST_CASE("a run that was killed is resumed as if nothing had happened", "[app][resume]")
 {
     const Workplace place;

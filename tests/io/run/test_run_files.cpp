@@ -111,19 +111,22 @@ TEST_CASE("metrics go on from where a checkpoint left them", "[run_files]")
 {
     const SceneFolder folder;
     const fs::path path = folder.path() / "metrics.csv";
-    std::uint64_t size = 0;
+    WrittenFile written;
     {
         MetricsFile metrics(path, {"time_s"});
         metrics.add_row({0.1});
         metrics.sync();
-        size = metrics.size();
+        written = metrics.written();
         metrics.add_row({0.2});
     }
-    MetricsFile(path, {"time_s"}, size).add_row({0.3});
+    MetricsFile(path, {"time_s"}, written).add_row({0.3});
     CHECK(read_file(path) == "time_s\n0.1\n0.3\n");
 
     const std::string changed = path.string() + ": the file is not as the run left it";
-    CHECK(error_of<InputError>([&] { MetricsFile(path, {"time_s"}, 100); }) == changed);
-    CHECK(error_of<InputError>([&] { MetricsFile(path, {"time_s", "flow"}, size); }) == changed);
+    CHECK(error_of<InputError>([&] { MetricsFile(path, {"time_s"}, {100, written.sum}); }) == changed);
+    CHECK(error_of<InputError>([&] { MetricsFile(path, {"time_s", "flow"}, written); }) == changed);
     CHECK(read_file(path) == "time_s\n0.1\n0.3\n");
+    std::ofstream(path) << "time_s\n0.2\n0.3\n"; // another number in a row that was there
+    CHECK(error_of<InputError>([&] { MetricsFile(path, {"time_s"}, written); }) == changed);
+    CHECK(read_file(path) == "time_s\n0.2\n0.3\n");
 }
