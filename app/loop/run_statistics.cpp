@@ -42,9 +42,9 @@ void EnergyBalance::add(const StepReport& report, bool comparable)
 
     // a report has the contact energy at the beginning of its step, which is the end of the step before
     std::optional<double> total;
-    if (motion_energy_) total = *motion_energy_ + report.contacts.stored_energy + report.contacts.attraction_energy;
+    if (motion_energy_) total = *motion_energy_ + report.contacts.stored_energy;
     if (total && total_energy_) {
-        const double rise = *total - *total_energy_ - work_;
+        const double rise = *total - *total_energy_ - work_ - attraction_work_;
         lost_ += std::max(0.0, -rise);
         gained_ += std::max(0.0, rise);
     }
@@ -52,6 +52,7 @@ void EnergyBalance::add(const StepReport& report, bool comparable)
     total_energy_ = total;
     work_ = report.outcome.wall_work + report.bodies.load_work + report.bodies.gravity_work;
     put_in_ += work_;
+    attraction_work_ = report.attraction_work;
     motion_energy_ = report.bodies.kinetic_energy + report.bodies.potential_energy;
 }
 

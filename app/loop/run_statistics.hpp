@@ -50,11 +50,15 @@ public:
     double gained() const { return gained_; } ///< sum of the rises [J]
     double put_in() const { return put_in_; } ///< work of moving walls, loads, and gravity along periodic axes [J]
 
-    void persist(Archive& archive) { archive(lost_, gained_, put_in_, work_, motion_energy_, total_energy_); }
+    void persist(Archive& archive)
+    {
+        archive(lost_, gained_, put_in_, work_, attraction_work_, motion_energy_, total_energy_);
+    }
 
 private:
     double lost_ = 0.0, gained_ = 0.0, put_in_ = 0.0;
-    double work_ = 0.0;                   ///< put in by the last step
+    double work_ = 0.0;                   ///< put in by the last step …
+    double attraction_work_ = 0.0;        ///< … and by attraction, which is none of it
     std::optional<double> motion_energy_; ///< kinetic + potential at the end of the last step
     std::optional<double> total_energy_;  ///< at the end of the step before it
 };

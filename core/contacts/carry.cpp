@@ -50,13 +50,13 @@ void carry_attractions(const TileContacts& contacts, CarriedImpulses& carried)
 {
     if (!contacts.has_attraction()) return;
     for (const std::size_t k : contacts.indices())
-        if (contacts.attraction(k) > 0.0) carried.contact[contacts.slot(k)].attached = true;
+        if (contacts.attracts(k)) carried.contact[contacts.slot(k)].attached = true;
 }
 
 void note_walls_touched(const TileContacts& contacts, State& state)
 {
     for (const std::size_t k : contacts.indices())
-        if (!contacts.impulse(k).isZero(0.0)) state.last_wall[contacts.a(k)] = contacts.b(k);
+        if (!contacts.impulse(k).isZero(0.0) || contacts.attracts(k)) state.last_wall[contacts.a(k)] = contacts.b(k);
 }
 
 /// What walls did to spheres which have moved by h v since.
@@ -65,7 +65,7 @@ WallLoad load_from(const TileContacts& walls, const State& state, double h)
     WallLoad load;
     for (const std::size_t k : walls.indices()) {
         const std::int32_t a = walls.a(k);
-        const Vec3 impulse = walls.impulse(k) - walls.attraction(k) * walls.normal(k);
+        const Vec3 impulse = walls.impulse(k) + walls.attraction(k);
         const Vec3 point = state.position[a] - h * state.body(a).velocity - state.radius[a] * walls.normal(k);
         load.impulse += impulse;
         load.torque += point.cross(impulse);
@@ -112,7 +112,7 @@ ContactOutcome carry_impulses(ContactNetwork& network, State& state, const Model
             for (const std::size_t k : walls.indices()) {
                 const WallRow wall = walls.wall(k);
                 const Vec3 impulse = walls.impulse(k);
-                outcome.wall_work += (impulse - walls.attraction(k) * walls.normal(k)).dot(wall.velocity);
+                outcome.wall_work += (impulse + walls.attraction(k)).dot(wall.velocity);
                 // An impact is judged by the velocity that the wall has now, all others by that of before.
                 if (walls.kind(k) != ContactKind::impact)
                     outcome.wall_gain_work -= 0.5 * wall.gain * impulse.dot(walls.normal(k));

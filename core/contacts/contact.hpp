@@ -22,9 +22,9 @@ struct Contact {
     double compliance = 0.0;              ///< Σ_n [1/kg]
     double parting = infinity;            ///< u_n that it asks for at most [m/s]
     double friction = 0.0;                ///< μ
-    double arm_scale = 1.0;        ///< s = |x_a − x_b| / (r_a + r_b); 1 at walls: lever arms add up to the distance
-    double inverse_mass_sum = 0.0; ///< W = 1/m_a + 1/m_b [1/kg]
-    double attraction = 0.0;       ///< c: with what impulse b draws a to itself besides λ [N s]
+    double arm_scale = 1.0;         ///< s = |x_a − x_b| / (r_a + r_b); 1 at walls: lever arms add up to the distance
+    double inverse_mass_sum = 0.0;  ///< W = 1/m_a + 1/m_b [1/kg]
+    Vec3 attraction = Vec3::Zero(); ///< impulse with which b draws a to itself besides λ [N s]
 
     double gap = 0.0;         ///< g at the beginning of the step [m]; < 0 is overlap
     double wall_level = 0.0;  ///< n·x at which the gap to the wall is zero after the step [m]; at walls
@@ -34,7 +34,7 @@ struct Contact {
 
     double normal_impulse() const { return impulse.dot(normal); }
     /// What b does to a in all [N s].
-    Vec3 whole_impulse() const { return impulse - attraction * normal; }
+    Vec3 whole_impulse() const { return impulse + attraction; }
 };
 
 /// The rolling row of a contact, and that of twisting; only where a scene resists one of them.

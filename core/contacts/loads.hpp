@@ -15,7 +15,7 @@ namespace talus
 template <class Use> void for_each_loaded(const TileContacts& contacts, Use&& use)
 {
     for (const std::size_t k : contacts.indices())
-        if (!contacts.impulse(k).isZero(0.0) || contacts.attraction(k) > 0.0) {
+        if (!contacts.impulse(k).isZero(0.0) || contacts.attracts(k)) {
             Contact whole = contacts.contact(k);
             whole.impulse = whole.whole_impulse();
             use(whole);

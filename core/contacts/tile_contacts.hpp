@@ -42,8 +42,10 @@ public:
     {
         records_[k / pack_size].touch[k % pack_size] = std::bit_cast<std::uint8_t>(touch);
     }
-    /// @param impulse c [N s]
-    void set_attraction(std::size_t k, double impulse) { attraction_[k / pack_size].impulse[k % pack_size] = impulse; }
+    void set_attraction(std::size_t k, const Vec3& impulse)
+    {
+        put(attraction_[k / pack_size].impulse, k % pack_size, impulse);
+    }
     void set_impulse(std::size_t k, const Vec3& impulse) { put(packs_[k / pack_size].impulse, k % pack_size, impulse); }
     /// @param impulse the angular one in all, rolling and twisting
     void set_rolling_impulse(std::size_t k, const Vec3& impulse);
@@ -78,11 +80,12 @@ public:
     Vec3 impulse(std::size_t k) const { return get(packs_[k / pack_size].impulse, k % pack_size); }
     double normal_impulse(std::size_t k) const { return impulse(k).dot(normal(k)); }
     bool is_loaded(std::size_t k) const { return normal_impulse(k) > 0.0; }
-    /// c [N s]; 0 where nothing attracts.
-    double attraction(std::size_t k) const
+    /// With which b draws a to itself [N s]; 0 where it does not.
+    Vec3 attraction(std::size_t k) const
     {
-        return parts_.attraction ? attraction_[k / pack_size].impulse[k % pack_size] : 0.0;
+        return parts_.attraction ? get(attraction_[k / pack_size].impulse, k % pack_size) : Vec3::Zero().eval();
     }
+    bool attracts(std::size_t k) const { return parts_.attraction && !attraction(k).isZero(0.0); }
     double gap(std::size_t k) const { return records_[k / pack_size].gap[k % pack_size]; }
     double wall_level(std::size_t k) const { return records_[k / pack_size].wall_level[k % pack_size]; }
     std::uint32_t slot(std::size_t k) const { return records_[k / pack_size].slot[k % pack_size]; }

@@ -11,9 +11,6 @@ namespace
 /// Points nearer to each other than this share of the radius are the same point.
 constexpr double same_point = 1e-6;
 
-/// Normals that differ more than this (cosine) belong to different contacts.
-constexpr double same_contact = 0.7;
-
 /// Whether the distance has no local minimum at `candidate`: its point lies on another patch, which comes nearer to x.
 bool on_a_nearer_patch(
     const WallPoint& candidate, const std::vector<WallPoint>& all, const PlacedWall& wall, double tolerance)

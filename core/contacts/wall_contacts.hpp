@@ -9,6 +9,9 @@
 namespace talus
 {
 
+/// Normals that differ more than this (cosine) belong to different contacts.
+inline constexpr double same_contact = 0.7;
+
 /// Of the nearest points of patches that a ball of this radius meets, keeps those where it touches the wall: the local
 /// minima of the distance. Where patches join, the nearest point of one that lies on a nearer one is no contact, and a
 /// point shared by several is one contact, so an edge or a vertex carries one contact's worth of force.

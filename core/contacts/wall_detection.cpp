@@ -34,6 +34,7 @@ const std::vector<WallMeeting>& WallDetection::find(std::span<WallPair> pairs)
     const std::int32_t sphere = pairs.front().sphere;
     x_ = place(sphere);
     const double radius = state_.radius[sphere];
+    if (model_.physics.attraction) note_attached(pairs);
     for (WallPair& pair : pairs)
         if (walls_[pair.wall].stands()) add_touching(pair, radius + touching_gap * step_.law.min_diameter);
     drop_hidden(0, 0, radius);
@@ -50,6 +51,26 @@ const std::vector<WallMeeting>& WallDetection::find(std::span<WallPair> pairs)
         if (!std::ranges::is_sorted(meetings_, {}, pair_of)) std::ranges::stable_sort(meetings_, {}, pair_of);
     }
     return meetings_;
+}
+
+void WallDetection::note_attached(std::span<const WallPair> pairs)
+{
+    attached_.clear();
+    for (const WallPair& pair : pairs)
+        for (std::uint32_t k = 0; k < pair.carried; ++k) {
+            const CarriedContact& carried = network_.carried.walls.contact[pair.first + k];
+            if (carried.attached || carried.touch.last() != TouchRecord::unloaded)
+                attached_.push_back(network_.carried.wall_normal[pair.first + k]);
+        }
+}
+
+void WallDetection::stay_attached(const WallPair& pair)
+{
+    for (std::uint32_t k = 0; k < pair.carried; ++k) {
+        const Vec3& normal = network_.carried.wall_normal[pair.first + k];
+        if (std::ranges::any_of(attached_, [&](const Vec3& other) { return other.dot(normal) > same_contact; }))
+            network_.carried.walls.contact[pair.first + k].attached = true;
+    }
 }
 
 void WallDetection::add_touching(WallPair& pair, double reach)

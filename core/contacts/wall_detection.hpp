@@ -41,6 +41,7 @@ public:
         points_.clear();
         for (const WallMeeting& meeting : meetings) points_.push_back(meeting.at);
         match_carried(network_.carried, pair, points_);
+        if (model_.physics.attraction) stay_attached(pair);
         for (std::size_t k = 0; k < meetings.size(); ++k)
             use(touch(meetings[k], pair.first + static_cast<std::uint32_t>(k)), meetings[k]);
     }
@@ -62,7 +63,11 @@ private:
     std::vector<WallMeeting> meetings_;
     std::vector<WallPoint> points_;
     std::vector<std::uint8_t> hidden_;
+    std::vector<Vec3> attached_; ///< normals of what attracted the sphere in the step before
 
+    void note_attached(std::span<const WallPair> pairs);
+    /// What attracts a sphere goes on to do so where it passes from wall to wall.
+    void stay_attached(const WallPair& pair);
     void add_touching(WallPair& pair, double reach);
     void add_gaps(WallPair& pair, std::span<const WallPoint> now, std::size_t touching);
     void drop_hidden(std::size_t from, std::size_t behind_all, double radius);

@@ -73,9 +73,9 @@ struct alignas(64) WallPack {
     double gain[pack_size];        ///< of the velocity along n since the step before [m/s]
 };
 
-/// With what impulse those attract each other that do: made by find_attractions, read by apply_attractions and reports.
+/// How those attract each other that do: made by find_attractions, read by apply_attractions and reports.
 struct AttractionPack {
-    double impulse[pack_size]; ///< c = h F [N s]; 0: they do not
+    double impulse[3][pack_size]; ///< on a, −c along the line of centres [N s]; 0: they do not
 };
 
 /// The packs of one tile as a sweep sees them.

@@ -2,6 +2,7 @@
 #include "core/solver/gauss_seidel.hpp"
 
 #include "core/candidates/tile_crew.hpp"
+#include "core/contacts/attractions.hpp"
 #include "core/solver/whole_contact.hpp"
 
 #include <algorithm>
@@ -15,13 +16,14 @@ namespace talus
 namespace
 {
 
-constexpr double unrelaxed = 1.0;        ///< ω of an ordinary sweep, and of all that measures
-constexpr std::size_t few_bodies = 1000; ///< that one thread copies faster than several
-constexpr double least_share = 0.1;      ///< of the tolerance, to which it may be tightened …
-constexpr double least_tolerance = 1e-3; ///< … but no further than to this
-constexpr double errors_left = 2.0;      ///< tolerances that may be missing at the end, by how fast sweeps converge
-constexpr double slowest = 1e-5;         ///< 1 − ρ that differs from none
-constexpr double motion_share = 7.0;     ///< tolerances that errors may be of what contacts change of the motion
+constexpr double unrelaxed = 1.0;               ///< ω of an ordinary sweep, and of all that measures
+constexpr std::size_t few_bodies = 1000;        ///< that one thread copies faster than several
+constexpr double least_share = 0.1;             ///< of the tolerance, to which it may be tightened …
+constexpr double least_tolerance = 1e-3;        ///< … but no further than to this
+constexpr double least_sticky_tolerance = 1e-6; ///< … or to this, where attraction presses with what moves nothing
+constexpr double errors_left = 2.0;  ///< tolerances that may be missing at the end, by how fast sweeps converge
+constexpr double slowest = 1e-5;     ///< 1 − ρ that differs from none
+constexpr double motion_share = 7.0; ///< tolerances that errors may be of what contacts change of the motion
 
 std::size_t row_variant(const ModelledPhysics& physics)
 {
@@ -138,6 +140,7 @@ void apply_warm_start(
     network.contacts.free_velocity.resize(bodies.size());
 #pragma omp parallel for schedule(static) if (bodies.size() > few_bodies)
     for (std::size_t i = 0; i < bodies.size(); ++i) network.contacts.free_velocity[i] = bodies[i].velocity;
+    if (physics.attraction) apply_attractions(network, bodies);
     const TilePasses passes(network, bodies, physics);
     with_tile_crew(network.list.tiles,
         [&](TileCrew& crew) { crew.color_by_color([&](std::size_t tile) { passes.warm_start(tile); }); });
@@ -205,12 +208,15 @@ SolveReport solve_contacts(ContactNetwork& network, PistonGroup& pistons, std::v
             const SweepSums sums_of_error = measured.total(unrelaxed);
             error = residual(sums_of_error);
             converged = error <= asked;
-            if (!converged || solver.stabilisation == Stabilisation::projected) continue;
+            if (!converged || (solver.stabilisation == Stabilisation::projected && !physics.attraction)) continue;
             // Where loads are large beside what they change of the motion, errors that are small beside them are not,
             // and springs go on with them. (Rigid rows that contradict each other only grow with further sweeps.)
             crew.by_one([&] { changed = changed_motion(network.contacts.free_velocity, bodies); });
             const double size = sums_of_error.size;
-            tolerance = tightened(solver.tolerance, size > 0.0 ? motion_share * std::sqrt(changed / size) : 1.0);
+            const double share = size > 0.0 ? motion_share * std::sqrt(changed / size) : 1.0;
+            tolerance = physics.attraction
+                            ? std::min(solver.tolerance, std::max(share * solver.tolerance, least_sticky_tolerance))
+                            : tightened(solver.tolerance, share);
             converged = error <= tolerance;
         }
 #pragma omp single nowait

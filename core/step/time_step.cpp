@@ -68,8 +68,8 @@ public:
     {
         enter(Phase::warm_start);
         pistons_.emplace(network_, state_, model_, h_);
+        attraction_work_ = 0.5 * attraction_power(network_, state_, model_);
         add_forces(state_, model_.gravity, h_);
-        if (model_.physics.attraction) apply_attractions(network_, state_.bodies);
         apply_warm_start(network_, *pistons_, state_.bodies, model_.physics);
     }
 
@@ -83,6 +83,7 @@ public:
         report_.solve =
             solve_contacts(network_, *pistons_, state_.bodies, model_.physics, solver_, report_.scaling.sweeps);
         pistons_->store(network_, state_);
+        attraction_work_ += 0.5 * attraction_power(network_, state_, model_);
     }
 
     /// How much nearer those come that touch in the step [m].
@@ -120,6 +121,7 @@ public:
         report_.outcome = carry_impulses(network_, state_, model_, length_);
         report_.bodies = survey_state(state_, model_, h_);
         report_.bodies.load_work += load_work_;
+        report_.attraction_work = attraction_work_;
         if (report_.outcome.newly_jammed > 0)
             std::ranges::move(find_presses(network_, state_, model_), std::back_inserter(incidents_));
         std::ranges::move(incidents_, std::back_inserter(report_.bodies.incidents));
@@ -138,6 +140,7 @@ private:
     PreparedStep prepared_;              ///< by prepare
     std::optional<PistonGroup> pistons_; ///< by free_motion, with their velocities from solve on
     SolverSettings solver_;              ///< by solve
+    double attraction_work_ = 0.0;       ///< by free_motion and solve [J]
     double load_work_ = 0.0;             ///< by move: of pistons' loads [J]
     std::vector<Incident> incidents_;    ///< by move: walls that appeared inside spheres
 
@@ -159,6 +162,7 @@ void StepReport::then(StepReport next)
     outcome += next.outcome;
     outcome.stored_energy = stored_energy;
     lifted_energy += next.lifted_energy;
+    attraction_work += next.attraction_work;
     bodies.then(std::move(next.bodies));
     for (std::size_t w = 0; w < wall_loads.size(); ++w) wall_loads[w] += next.wall_loads[w];
 }

@@ -45,6 +45,7 @@ struct StepReport {
     StateSurvey bodies;
     std::vector<WallLoad> wall_loads; ///< by wall; empty unless a sensor asks for them
     double lifted_energy = 0.0;       ///< potential energy that moves of positions without velocity added [J]
+    double attraction_work = 0.0;     ///< of what attracts each other, on its way together [J]
 
     void then(StepReport next); ///< the next sub-step
 };

@@ -30,6 +30,7 @@ std::string explain_step(const StepChoice& choice, double d)
         return text("step %.4g ms: given by the scene (auto would be %.4g ms)", 1e3 * choice.step, 1e3 * automatic);
     const std::pair<double, std::string> targets[] = {
         {choice.by_approach, text("the approach of what closes at %.3g m/s", choice.meeting_speed())},
+        {choice.by_attraction, "the way that attraction brings spheres nearer in a step"},
         {choice.by_overlap, "the mean overlap of the bed"}, {choice.by_creep, "the creep of a bed at rest"},
         {choice.by_heavy, "the overlap below its heaviest sphere"},
         {choice.by_samples == automatic ? automatic : infinity, "the time between samples"}};

@@ -25,15 +25,25 @@ constexpr double borne_step = 0.0072; ///< with two sweeps, below a sphere of `b
 constexpr double borne_ratio = 800.0; ///< grains overlap by 0.02 d (measured)
 constexpr double beyond_sense = 10.0; ///< times as fast as anything should come to be
 
-/// The force with which two mean spheres of these materials press on each other by attraction alone [N].
-double attraction_between(const Model& model, int a, int b)
+/// How fast attraction brings two spheres, or a sphere and a wall, together, the worst of all pairs of materials: W F
+/// of spheres of this diameter [m/s²].
+double attraction_of(const Simulation& simulation, double diameter)
 {
-    if (model.materials.attractions.empty()) return 0.0;
-    const double d = model.mean_diameter;
-    const double density = std::min(model.materials.list[static_cast<std::size_t>(a)].density,
-        model.materials.list[static_cast<std::size_t>(b)].density);
-    const double weight = density * std::numbers::pi / 6.0 * d * d * d * model.gravity.norm();
-    return AttractionOfPair(model.materials.attraction(a, b), 0.25 * d, weight).force(0.0);
+    const Model& model = simulation.model;
+    if (!model.physics.attraction) return 0.0;
+    double worst = 0.0;
+    const std::set<int> spheres = sphere_materials(simulation);
+    const auto note = [&](int a, int b, double density, double reduced_radius, double masses) {
+        const double mass = density * std::numbers::pi / 6.0 * std::pow(diameter, 3);
+        const AttractionOfPair pair(model.materials.attraction(a, b), reduced_radius, mass * model.gravity.norm());
+        worst = std::max(worst, masses / mass * pair.force(0.0));
+    };
+    const auto density_of = [&](int k) { return model.materials.list[static_cast<std::size_t>(k)].density; };
+    for (const int a : spheres) {
+        for (const int b : spheres) note(a, b, std::min(density_of(a), density_of(b)), 0.25 * diameter, 2.0);
+        for (const Wall& wall : model.walls) note(a, wall.material, density_of(a), 0.5 * diameter, 1.0);
+    }
+    return worst;
 }
 
 /// Of a mean sphere of the lightest material: what a bed of depth Z presses on each of its contacts, and how much of
@@ -46,27 +56,25 @@ struct Softness {
     {
         const Model& model = simulation.model;
         const double d = model.mean_diameter;
-        double density = infinity, stiffness = 0.0, attraction = 0.0;
+        double density = infinity, stiffness = 0.0;
         const std::set<int> materials = sphere_materials(simulation);
         for (const int a : materials) {
             density = std::min(density, model.materials.list[static_cast<std::size_t>(a)].density);
-            for (const int b : materials) {
-                stiffness = std::max(stiffness, model.materials.between(a, b).stiffness);
-                attraction = std::max(attraction, attraction_between(model, a, b));
-            }
+            for (const int b : materials) stiffness = std::max(stiffness, model.materials.between(a, b).stiffness);
         }
-        const double mass = density * std::numbers::pi / 6.0 * d * d * d, inverse_mass_sum = 2.0 / mass;
+        const double inverse_mass_sum = 2.0 / (density * std::numbers::pi / 6.0 * d * d * d);
         load = overlap_of_layer * ((model.gravity.norm() + bed.wall_acceleration) * bed.borne_depth() +
                                       2.0 * bed.surcharge / (packed_share * density * d)) +
-               sigma_per_sweep / (4.0 * upsilon) * inverse_mass_sum * attraction;
+               sigma_per_sweep / (4.0 * upsilon) * attraction_of(simulation, d);
         given = 4.0 * upsilon / (sigma_per_sweep * inverse_mass_sum * stiffness);
     }
 };
 
 /// The longest steps that keep to each target, with so many sweeps at least.
-StepChoice longest_with(int sweeps, const Model& model, const Bed& bed, const Softness& softness, double closing_speed,
-    const StepTargets& targets)
+StepChoice longest_with(int sweeps, const Simulation& simulation, const Bed& bed, const Softness& softness,
+    double closing_speed, const StepTargets& targets)
 {
+    const Model& model = simulation.model;
     const double d = model.min_diameter, time_of_fall = std::sqrt(d / model.gravity.norm());
     const bool soft = model.solver.stabilisation == Stabilisation::matched;
     const double borne = borne_step * std::sqrt(std::cbrt(borne_ratio / bed.measures.mass_ratio));
@@ -75,6 +83,7 @@ StepChoice longest_with(int sweeps, const Model& model, const Bed& bed, const So
     choice.closing_speed = closing_speed;
     choice.restitution = std::ranges::max(model.materials.laws, {}, &ContactLaw::restitution).restitution;
     choice.by_approach = targets.approach * d / choice.meeting_speed();
+    choice.by_attraction = std::sqrt(targets.approach * d / attraction_of(simulation, d));
     choice.by_heavy = borne * time_of_fall * std::sqrt(soft ? 0.5 * sweeps : 1.0);
     choice.by_creep = (soft ? std::min(sweeps, most_sweeps) * targets.creep : rigid_step) * time_of_fall;
     if (soft)
@@ -98,7 +107,7 @@ StepChoice automatic_choice(const scene::Scene& scene, const Simulation& simulat
 {
     const SolverSettings& solver = simulation.model.solver;
     const Softness softness(simulation, bed);
-    const auto with = [&](int n) { return longest_with(n, simulation.model, bed, softness, closing_speed, targets); };
+    const auto with = [&](int n) { return longest_with(n, simulation, bed, softness, closing_speed, targets); };
     if (scene.solver.min_sweeps > 0 || solver.stabilisation == Stabilisation::projected) return with(solver.min_sweeps);
     StepChoice best = with(solver.min_sweeps);
     for (int n = solver.min_sweeps + 1; n <= std::min(most_sweeps, solver.max_sweeps); ++n)

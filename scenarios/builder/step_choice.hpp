@@ -26,10 +26,11 @@ struct StepChoice {
     double by_overlap = infinity; ///< the longest step that keeps to each target, with the sweeps that go with it [s]
     double by_creep = infinity;
     double by_approach = infinity;
-    double by_heavy = infinity; ///< that keeps what lies below the heaviest sphere from overlapping by 0.02 d [s]
-    double closing_speed = 0.0; ///< of surfaces that will touch, at most [m/s]
-    double restitution = 0.0;   ///< with which these part, at most
-    double speed_limit = 0.0;   ///< what is faster is a blow-up [m/s]
+    double by_attraction = infinity; ///< that keeps what attraction alone brings nearer in a step to the same
+    double by_heavy = infinity;      ///< that keeps what lies below the heaviest sphere from overlapping by 0.02 d [s]
+    double closing_speed = 0.0;      ///< of surfaces that will touch, at most [m/s]
+    double restitution = 0.0;        ///< with which these part, at most
+    double speed_limit = 0.0;        ///< what is faster is a blow-up [m/s]
 
     double by_samples = infinity; ///< the time between samples, which it is no longer than [s]
 
@@ -39,7 +40,7 @@ struct StepChoice {
     /// Infinite where neither gravity nor a speed says anything.
     double automatic() const
     {
-        const double longest = std::min({by_overlap, by_creep, by_approach, by_heavy});
+        const double longest = std::min({by_overlap, by_creep, by_approach, by_attraction, by_heavy});
         return std::isfinite(longest) ? std::min(longest, by_samples) : longest;
     }
 };

@@ -183,6 +183,59 @@ TEST_CASE("attraction presses a sphere on a wall, and friction holds it there", 
     }
 }
 
+TEST_CASE("a pair that turns round each other keeps its angular momentum", "[attraction]")
+{
+    World world = pair({.force = 1e-3, .range = 0.1 * d}, r, r, 0.0, GENERATE(rigid_settings(), matched_settings()));
+    world.step();
+    for (const int id : {0, 1})
+        world.state.bodies[world.index_of(id)].velocity = (id == 0 ? 0.1 : -0.1) * Vec3(0.05, 1.0, 0.0);
+    const auto momentum = [&] {
+        double sum = 0.0;
+        for (const int id : {0, 1}) sum += world.position(id).cross(world.velocity(id)).z();
+        return sum;
+    };
+    const double before = momentum();
+    double widest = 0.0;
+    for (int k = 0; k < 2000; ++k) {
+        world.step();
+        widest = std::max(widest, (world.position(0) - world.position(1)).norm() - d);
+    }
+    CHECK(widest > 1e-4 * d);                          // it parts and is drawn back
+    CHECK(momentum() == Approx(before).epsilon(2e-3)); // impulses of contacts act where paths meet
+}
+
+TEST_CASE("what sticks passes from wall to wall and still does", "[attraction]")
+{
+    World world = make_world({}, GENERATE(rigid_settings(), matched_settings()), step);
+    world.attract({.force = 20.0 * mass_of(r) * g, .range = 0.1 * d});
+    world.model.gravity = g * Vec3::UnitZ(); // upwards: it hangs
+    world.add_wall(Disk{Vec3(-10 * r, 0, 0), Vec3::UnitZ(), 10 * r, 0.0});
+    world.add_wall(Disk{Vec3(10 * r, 0, 0), Vec3::UnitZ(), 10 * r, 0.0});
+    world.add_sphere(Vec3(-r, 0, r), Vec3(0.3, 0, 0.1));
+    double highest = 0.0;
+    while (world.position().x() < r) {
+        world.step();
+        highest = std::max(highest, world.position().z() - r);
+    }
+    CHECK(highest > 1e-4 * d);
+    CHECK(highest < 0.1 * d);
+}
+
+TEST_CASE("a bed that sticks with a thousand times its weight comes to rest", "[attraction]")
+{
+    const auto law = GENERATE(Stabilisation::matched, Stabilisation::projected);
+    World world = make_world({.friction = 0.5}, production_settings(law), 2e-5);
+    world.model.solver.push_out_speed = automatic_push_out_speed(d);
+    world.attract({.by_weight = 1000.0, .range = 0.01 * d});
+    world.add_plane(Vec3::Zero(), Vec3::UnitZ());
+    const auto shaken = [](int k) { return Vec3(0.05 * std::sin(1.0 + k), 0.05 * std::sin(2.0 * k), 0.0); };
+    for (int k = 0; k < 25; ++k) world.add_sphere(Vec3(2 * r * (k % 5), 2 * r * (k / 5), r), shaken(k));
+    for (int k = 0; k < 16; ++k)
+        world.add_sphere(Vec3(r + 2 * r * (k % 4), r + 2 * r * (k / 4), r * (1 + std::sqrt(2.0))), shaken(k));
+    world.step(10000);
+    CHECK(kinetic_energy(world.state) < 1e-8 * 41 * mass_of(r) * g * d);
+}
+
 TEST_CASE("attraction between spheres, and with a piston, keeps momentum", "[attraction]")
 {
     World world = make_world({}, GENERATE(rigid_settings(), matched_settings()), step);

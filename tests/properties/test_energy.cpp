@@ -62,11 +62,11 @@ double taken_by_attraction(const World& before, const World& after)
         return Vec3(0.5 * (before.velocity(id) + after.velocity(id)));
     };
     for_each_contact(after.network, [&](const TileContacts& contacts, std::size_t k, bool with_wall) {
-        if (contacts.attraction(k) == 0.0) return;
+        if (!contacts.attracts(k)) return;
         const Vec3 other = !with_wall                    ? mean_velocity(contacts.b(k))
                            : contacts.has_moving_walls() ? contacts.wall(k).velocity
                                                          : Vec3::Zero().eval();
-        sum += contacts.attraction(k) * contacts.normal(k).dot(mean_velocity(contacts.a(k)) - other);
+        sum -= contacts.attraction(k).dot(mean_velocity(contacts.a(k)) - other);
     });
     return sum;
 }
@@ -95,7 +95,7 @@ Books make_counted_part(World& world, int parts)
         least += 0.5 * piston.mass * piston.free_gain(world.model.gravity, world.state.time, h).squaredNorm();
     }
     for_each_contact(world.network, [&](const TileContacts& contacts, std::size_t k, bool) {
-        least += 0.5 * contacts.contact(k).inverse_mass_sum * std::pow(contacts.attraction(k), 2);
+        least += 0.5 * contacts.contact(k).inverse_mass_sum * contacts.attraction(k).squaredNorm();
     });
     books.scale = std::max(
         {before.kinetic, after.kinetic, springs_before, springs_after, std::abs(walls), std::abs(attraction), least});

@@ -17,7 +17,7 @@ import numpy
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).resolve().parents[2] / "postprocess")]
 from case import Row, mean_and_error, told  # noqa: E402  found by the line above
-from cases import (beverloo, chung_ooi, clogging, column_collapse, conical_hopper, crater, drum,  # noqa: E402
+from cases import (beverloo, chung_ooi, clogging, cohesion, column_collapse, conical_hopper, crater, drum,  # noqa: E402
                    force_distribution, granular_gas, incline, janssen, packings, plane_shear, repose, segregation)
 from deck import DeckRun  # noqa: E402
 from measures import line_of_tops  # noqa: E402
@@ -209,6 +209,24 @@ class Deck(unittest.TestCase):
         self.assertEqual((first.time, last.time), (0.0, 0.005))
         self.assertEqual(last.positions.tolist(), [[0.1, 0.2, 50], [0.3, 0.4, 0.5]])
         self.assertEqual(last.radii.tolist(), [0.005, 0.004])
+
+
+    def test_column_that_stands(self):
+        # By hand: 24 · 6/(5.5 · 2 · 0.5 · tan(45° + 13.283°)), with atan 0.5 = 26.565°.
+        self.assertAlmostEqual(cohesion.column_bond_by_rumpf(), 16.18, delta=0.01)
+        fallen = {2.0: -9.0, 4.0: -8.0, 8.0: -6.0, 16.0: -1.5, 32.0: -0.3, 64.0: -0.1}
+        found = cohesion.column_bond({f"wet_column_{bond:g}": rise for bond, rise in fallen.items()}, lambda rise: rise)
+        self.assertAlmostEqual(found, math.sqrt(16 * 32))
+
+    def test_strength_that_adhesion_adds(self):
+        # Of a pressure more of φ Z F/(π d²) = 0.6 · 5/π · 0.5 · 1000 Pa, which is 477.5 Pa.
+        value = lambda number: SimpleNamespace(value=number)
+        run = SimpleNamespace(sensors=lambda: {"middle": {"packing_fraction": value(0.6), "coordination": value(5.0),
+                                                          "stress_zz": value(1000.0)}})
+        loose, sticky = (SimpleNamespace(mu=mu) for mu in (0.4, 0.4 * (1 + 0.4775)))
+        states = {id(run): sticky, 0: loose}
+        found = cohesion.added_strength(run, 0, 0.5, lambda one: states[id(one) if one is run else 0])
+        self.assertAlmostEqual(found, 1.0, delta=1e-3)
 
 
 class Page(unittest.TestCase):

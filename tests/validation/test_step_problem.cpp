@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sphere kernel against the note's general layer on steps of the supplied scenes.
-#include "core/contacts/attractions.hpp"
 #include "core/multibody/algorithm_3_1.hpp"
 #include "core/solver/gauss_seidel.hpp"
 #include "core/solver/step_problem.hpp"
@@ -28,7 +27,6 @@ State swept_by_kernel(const Simulation& simulation, int sweeps)
     const Model& model = simulation.model;
     PistonGroup pistons(network, state, model, model.time_step);
     for (Body& m : state.bodies) m.velocity += model.time_step * model.gravity;
-    apply_attractions(network, state.bodies);
     SolverSettings solver = model.solver;
     solver.tolerance = 0.0;
     solver.max_sweeps = sweeps;
@@ -103,7 +101,7 @@ Census census(const ContactNetwork& network)
         count.impacts += contacts.kind(k) == ContactKind::impact;
         count.rolling += contacts.has_rolling() && contacts.rolling(k).reach > 0.0;
         count.twisting += contacts.has_rolling() && contacts.rolling(k).twist_reach > 0.0;
-        count.attracting += contacts.attraction(k) > 0.0;
+        count.attracting += contacts.attracts(k);
         count.with_pistons += &contacts == &network.contacts.pistons;
         count.moving += contacts.has_moving_walls() && !contacts.wall(k).velocity.isZero(0.0);
     });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/law/impact.hpp"
+#include "core/law/thresholds.hpp"
 #include "scenarios/builder/build_scene.hpp"
 #include "scenarios/builder/step_choice.hpp"
 #include "tests/scenarios/small_scene.hpp"
@@ -67,6 +68,27 @@ TEST_CASE("the automatic step is the longest that keeps to all targets", "[step_
     CHECK(h > (choice.min_sweeps - 1) * 0.0036 * std::sqrt(0.008 / 9.81)); // fewer sweeps would not do
     CHECK(h * (1.0 + choice.restitution) * choice.closing_speed == Approx(0.1 * 0.008));
     CHECK_THAT(report.step, Contains("approach of what closes at") && Contains("d = 8 mm"));
+}
+
+TEST_CASE("what sticks to spheres or to walls alone shortens the step", "[step_choice]")
+{
+    auto scene = small_scene();
+    scene.solver.stabilisation = GENERATE(as<std::string>{}, "matched", "projected");
+    scene.materials.push_back({"steel", 7800.0});
+    scene.contact.push_back({{"glass", "steel"}});
+    scene.wall[0].material = "steel";
+    const StepChoice loose = choice_of(scene);
+    CHECK(loose.by_attraction == infinity);
+    const std::size_t which = GENERATE(0, 1); // glass on glass, glass on steel
+    const double d = 0.01, weights = 1e4;
+    scene.contact[which].cohesion = {.law = "bond_number", .bond_number = weights};
+    const StepChoice sticky = choice_of(scene);
+    // What draws a pair of equal spheres together makes 2 F/m, a sphere to a wall F/m.
+    CHECK(sticky.by_attraction == Approx(std::sqrt(0.1 * d / ((which == 0 ? 2.0 : 1.0) * weights * 9.81))));
+    CHECK(sticky.automatic() < 0.5 * loose.automatic());
+    if (scene.solver.stabilisation == "projected") return;
+    const double h = sticky.automatic(), acceleration = (which == 0 ? 2.0 : 1.0) * weights * 9.81;
+    CHECK(sigma_per_sweep / sticky.min_sweeps * acceleration * h * h / (4.0 * upsilon) <= 0.002 * d); // its overlap
 }
 
 TEST_CASE("targets that the scene gives are kept", "[step_choice]")
