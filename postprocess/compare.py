@@ -5,7 +5,8 @@ other with one camera and one clock.
 
     postprocess/compare.py out/smooth out/rough           into compare.html
 
-Exit codes: 0 done, 2 wrong arguments or something missing, 4 the page cannot be written.
+Exit codes: 0 done, 2 wrong arguments or something missing, 4 a file of a run is damaged, or the page cannot be
+written.
 """
 import argparse
 import sys
@@ -153,7 +154,7 @@ def main():
         print(arguments.output)
     except RunError as error:
         print(f"compare.py: {error}", file=sys.stderr)
-        sys.exit(2)
+        sys.exit(error.exit_code)
     except OSError as error:
         print(f"compare.py: {error.filename}: {error.strerror}.", file=sys.stderr)
         sys.exit(4)

@@ -4,7 +4,8 @@
 
     postprocess/plot_metrics.py out/hopper                into out/hopper/metrics.png
 
-Exit codes: 0 done, 2 wrong arguments or no such run, 4 the figure cannot be written.
+Exit codes: 0 done, 2 wrong arguments or no such run, 4 a file of the run is damaged, or the figure cannot be
+written.
 """
 import argparse
 import sys
@@ -77,7 +78,7 @@ def main():
         print(path)
     except RunError as error:
         print(f"plot_metrics.py: {error}", file=sys.stderr)
-        sys.exit(2)
+        sys.exit(error.exit_code)
     except OSError as error:
         print(f"plot_metrics.py: {error.filename}: {error.strerror}.", file=sys.stderr)
         sys.exit(4)

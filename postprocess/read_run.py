@@ -17,8 +17,19 @@ from typing import NamedTuple
 import numpy
 
 
+END_OF_FRAME = 32  # bytes, among which a whole frame has its last tag
+
+
 class RunError(Exception):
     """A run, or a part of it, that is not there; the text is one sentence for the user."""
+
+    exit_code = 2
+
+
+class DamagedRun(RunError):
+    """A file of a run that is not as the run wrote it."""
+
+    exit_code = 4
 
 
 class Frame(NamedTuple):
@@ -97,7 +108,7 @@ class Run:
         try:
             return tomllib.loads(path.read_text(encoding="utf-8"))
         except tomllib.TOMLDecodeError as error:
-            raise RunError(f"{path} is damaged: {error}.") from error
+            raise DamagedRun(f"{path} is damaged: {error}.") from error
 
     def title(self):
         """The title of the scene, or the folder's name where it has none."""
@@ -111,7 +122,7 @@ class Run:
         try:
             return json.loads(path.read_text(encoding="utf-8"))
         except json.JSONDecodeError as error:
-            raise RunError(f"{path} is damaged: {error}.") from error
+            raise DamagedRun(f"{path} is damaged: {error}.") from error
 
     def frames(self, series="particles"):
         """The frames of particles, contacts, walls or moving_walls in order of time; empty where the run wrote none."""
@@ -121,7 +132,7 @@ class Run:
         try:
             entries = xml.parse(path).iter("DataSet")
         except xml.ParseError as error:
-            raise RunError(f"{path} is damaged: {error}.") from error
+            raise DamagedRun(f"{path} is damaged: {error}.") from error
         frames = [Frame(float(entry.get("timestep")), self.folder / entry.get("file")) for entry in entries]
         return sorted(frames, key=lambda frame: frame.time)
 
@@ -158,15 +169,33 @@ class Run:
 def read_frame(frame):
     """The vtkPolyData of a frame.
 
-    Raises RunError where the file is missing or damaged.
+    Raises DamagedRun where the file is missing or damaged.
     """
+    from vtkmodules.vtkCommonCore import vtkObject
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
     if not frame.path.is_file():
-        raise RunError(f"{frame.path} is not there, though the run lists it.")
+        raise DamagedRun(f"{frame.path} is not there, though the run lists it.")
+    with frame.path.open("rb") as file:
+        file.seek(-min(END_OF_FRAME, frame.path.stat().st_size), os.SEEK_END)
+        if b"</VTKFile>" not in file.read():
+            raise DamagedRun(f"{frame.path} is damaged: it is cut short.")
     reader = vtkXMLPolyDataReader()
     reader.SetFileName(str(frame.path))
+    errors = []
+    reader.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+    shows = vtkObject.GetGlobalWarningDisplay()
+    vtkObject.GlobalWarningDisplayOff()  # it has lines of its own for each
     reader.Update()
-    if reader.GetErrorCode():
-        raise RunError(f"{frame.path} is damaged.")
-    return reader.GetOutput()
+    vtkObject.SetGlobalWarningDisplay(shows)
+    geometry = reader.GetOutput()
+    if reader.GetErrorCode() or errors or not has_whole_arrays(geometry):
+        raise DamagedRun(f"{frame.path} is damaged.")
+    return geometry
+
+
+def has_whole_arrays(geometry):
+    """Whether each array of a frame has as many entries as it has points or cells, and a name."""
+    parts = ((geometry.GetPointData(), geometry.GetNumberOfPoints()), (geometry.GetCellData(), geometry.GetNumberOfCells()))
+    arrays = [(data.GetArray(k), count) for data, count in parts for k in range(data.GetNumberOfArrays())]
+    return all(array is not None and array.GetName() and array.GetNumberOfTuples() == count for array, count in arrays)

@@ -8,7 +8,8 @@
     postprocess/render.py out/hopper --chains --clip y    the forces in a cut through the middle
 
 It works without a screen: where DISPLAY is not set it starts itself again under xvfb-run.
-Exit codes: 0 done, 2 wrong arguments or something missing, 4 a picture cannot be written.
+Exit codes: 0 done, 2 wrong arguments or something missing, 4 a file of the run is damaged, or a picture cannot
+be written.
 """
 import argparse
 import os
@@ -384,7 +385,7 @@ def main():
         render(run, frames, arguments)
     except RunError as error:
         print(f"render.py: {error}", file=sys.stderr)
-        sys.exit(2)
+        sys.exit(error.exit_code)
     except OSError as error:
         print(f"render.py: {error.filename}: {error.strerror}.", file=sys.stderr)
         sys.exit(4)

@@ -6,7 +6,8 @@
     postprocess/report.py out/hopper --output page.html --frames 120
 
 It works on a run that is still going on, or was killed, as far as it came.
-Exit codes: 0 done, 2 wrong arguments or something missing, 4 the page cannot be written.
+Exit codes: 0 done, 2 wrong arguments or something missing, 4 a file of the run is damaged, or the page cannot be
+written.
 """
 import argparse
 import sys
@@ -50,7 +51,7 @@ def main():
         print(path)
     except RunError as error:
         print(f"report.py: {error}", file=sys.stderr)
-        sys.exit(2)
+        sys.exit(error.exit_code)
     except OSError as error:
         print(f"report.py: {error.filename}: {error.strerror}.", file=sys.stderr)
         sys.exit(4)

@@ -163,6 +163,22 @@ def problems_of_killed(run, folder):
         yield "a run that was killed before its first frame has no page"
 
 
+def problems_of_damage(run, folder):
+    def page_of(damage):
+        copy = folder / "damaged"
+        shutil.rmtree(copy, ignore_errors=True)
+        shutil.copytree(run.folder, copy)
+        damage(copy / run.frames()[1].path.relative_to(run.folder))
+        return call("report.py", copy)
+
+    cut = page_of(lambda frame: frame.write_bytes(frame.read_bytes()[:-200]))
+    if cut.returncode != 4 or not cut.stderr.endswith("is damaged: it is cut short.\n") or cut.stderr.count("\n") != 1:
+        yield f"a frame that is cut short did not end in one sentence with exit code 4: {cut.stderr}"
+    gone = page_of(Path.unlink)
+    if gone.returncode != 4 or "is not there, though the run lists it" not in gone.stderr:
+        yield f"a frame that is gone did not end with exit code 4: {gone.stderr}"
+
+
 def problems_of_comparison(run, folder):
     page = folder / "compare.html"
     made = call("compare.py", run.folder, run.folder, "--output", page)
@@ -190,6 +206,7 @@ def problems(out):
         yield from problems_of_changes()
         yield from problems_of_refusals(run, folder)
         yield from problems_of_killed(run, folder)
+        yield from problems_of_damage(run, folder)
         yield from problems_of_comparison(run, folder)
 
 
