@@ -75,10 +75,9 @@ template <int width>
 
 /// a b + c, rounded once, without an instruction for it (Boldo & Melquiond 2008): the product is exact in two numbers
 /// (Veltkamp, Dekker), and what is added last is rounded to odd. Products so small that their lower half is not exact
-/// are left to the library.
+/// are left to the library. (Inlined it takes a minute to compile, and is no faster.)
 template <int width>
-[[gnu::always_inline]] inline Numbers<width> fused_by_parts(
-    const Numbers<width>& a, const Numbers<width>& b, const Numbers<width>& c)
+[[gnu::noinline]] Numbers<width> fused_by_parts(Numbers<width> a, Numbers<width> b, Numbers<width> c)
 {
     constexpr double splits = 0x1p27 + 1.0;
     const Numbers<width> a_high = splits * a - (splits * a - a), a_low = a - a_high;
