@@ -20,13 +20,14 @@ const Attraction& law_of(
         state.material[contacts.a(k)], with_walls ? model.walls[b].material : state.material[b]);
 }
 
-AttractionOfPair pair_of(
-    const TileContacts& contacts, std::size_t k, bool with_walls, const State& state, const Model& model)
+/// @param law of its two
+AttractionOfPair pair_of(const Attraction& law, const TileContacts& contacts, std::size_t k, bool with_walls,
+    const State& state, const Model& model)
 {
     const std::int32_t a = contacts.a(k), b = contacts.b(k);
     const double r = state.radius[a], reduced_radius = with_walls ? r : r * state.radius[b] / (r + state.radius[b]);
     const double mass = with_walls ? state.mass(a) : std::min(state.mass(a), state.mass(b));
-    return {law_of(contacts, k, with_walls, state, model), reduced_radius, mass * model.gravity.norm()};
+    return {law, reduced_radius, mass * model.gravity.norm()};
 }
 
 /// How the two of a contact lie to each other now, wherever their free paths would meet.
@@ -62,11 +63,12 @@ double find_attractions(TileContacts& contacts, std::size_t pack, bool with_wall
         const std::size_t k = pack_size * pack + lane;
         contacts.set_attraction(k, Vec3::Zero());
         if (!contacts.record(pack).holds(lane)) continue;
-        const double range = law_of(contacts, k, with_walls, state, model).range;
-        if (range == 0.0) continue;
+        const Attraction& law = law_of(contacts, k, with_walls, state, model);
+        if (law.range == 0.0) continue;
         const Apart now = apart(contacts, k, with_walls, state, model);
-        if (now.gap > range || !have_touched(contacts, k, carried.contact[contacts.slot(k)], now.gap, model)) continue;
-        const AttractionOfPair pair = pair_of(contacts, k, with_walls, state, model);
+        if (now.gap > law.range || !have_touched(contacts, k, carried.contact[contacts.slot(k)], now.gap, model))
+            continue;
+        const AttractionOfPair pair = pair_of(law, contacts, k, with_walls, state, model);
         contacts.set_attraction(k, -h * pair.force(now.gap) * now.direction);
         energy += pair.energy(now.gap);
     }

@@ -31,9 +31,9 @@ void ContactSurvey::then(const ContactSurvey& next)
     attraction_energy = before.attraction_energy;
 }
 
-ContactSurvey survey_of(const TouchSums& sums)
+ContactSurvey survey_of(const TouchSums& sums, double attraction_energy)
 {
-    ContactSurvey survey;
+    ContactSurvey survey{.attraction_energy = attraction_energy};
     for (int lane = 0; lane < pack_size; ++lane)
         survey += {.count = static_cast<std::size_t>(sums.contacts[lane]),
             .overlapping = static_cast<std::size_t>(sums.overlapping[lane]),

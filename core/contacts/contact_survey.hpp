@@ -28,7 +28,7 @@ struct ContactSurvey {
     void then(const ContactSurvey& next);
 };
 
-/// What the touches of a tile add up to.
-ContactSurvey survey_of(const TouchSums& sums);
+/// What the touches of a tile add up to. @param attraction_energy of them all [J]
+ContactSurvey survey_of(const TouchSums& sums, double attraction_energy);
 
 } // namespace talus

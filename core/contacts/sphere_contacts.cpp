@@ -89,9 +89,7 @@ ContactSurvey SphereAssembly::make(const Tile& tile, const SphereNumbers& sphere
             attraction_energy += find_attractions(contacts, p, false, tile.carried, state_, model_, step_.law.h);
         note_impacts(contacts.pack(p), impacts, state_.bodies, network_.contacts.impacts);
     }
-    ContactSurvey survey = survey_of(sums);
-    survey.attraction_energy = attraction_energy;
-    return survey;
+    return survey_of(sums, attraction_energy);
 }
 
 } // namespace talus

@@ -68,9 +68,7 @@ ContactSurvey WallAssembly::make()
             impacts_[pack.a[lane]].note(impacts.size[lane], 0.0); // nothing is heavier than what stands still
         }
     }
-    ContactSurvey survey = survey_of(sums);
-    survey.attraction_energy = attraction_energy;
-    return survey;
+    return survey_of(sums, attraction_energy);
 }
 
 } // namespace talus

@@ -50,6 +50,23 @@ class Analysis(unittest.TestCase):
         f = numpy.linspace(0, 60, 600001)
         self.assertAlmostEqual(numpy.trapz(force_distribution.mueth(f, *force_distribution.MUETH), f), 1, delta=0.02)
 
+    def test_column_that_stands(self):
+        # By hand: 24 · 6/(5.5 · 2 · 0.5 · tan(45° + 13.283°)), with atan 0.5 = 26.565°.
+        self.assertAlmostEqual(cohesion.column_bond_by_rumpf(), 16.18, delta=0.01)
+        fallen = {2.0: -9.0, 4.0: -8.0, 8.0: -6.0, 16.0: -1.5, 32.0: -0.3, 64.0: -0.1}
+        found = cohesion.column_bond({f"wet_column_{bond:g}": rise for bond, rise in fallen.items()}, lambda rise: rise)
+        self.assertAlmostEqual(found, math.sqrt(16 * 32))
+
+    def test_strength_that_adhesion_adds(self):
+        # Of a pressure more of φ Z F/(π d²) = 0.6 · 5/π · 0.5 · 1000 Pa, which is 477.5 Pa.
+        value = lambda number: SimpleNamespace(value=number)
+        run = SimpleNamespace(sensors=lambda: {"middle": {"packing_fraction": value(0.6), "coordination": value(5.0),
+                                                          "stress_zz": value(1000.0)}})
+        loose, sticky = (SimpleNamespace(mu=mu) for mu in (0.4, 0.4 * (1 + 0.4775)))
+        states = {id(run): sticky, 0: loose}
+        found = cohesion.added_strength(run, 0, 0.5, lambda one: states[id(one) if one is run else 0])
+        self.assertAlmostEqual(found, 1.0, delta=1e-3)
+
     def test_saturation_of_janssen(self):
         masses = numpy.array([1.0, 2.0, 3.0, 4.0])
         self.assertAlmostEqual(janssen.fitted_saturation(masses, janssen.carried(masses, 1.3)), 1.3, delta=1e-3)
@@ -209,24 +226,6 @@ class Deck(unittest.TestCase):
         self.assertEqual((first.time, last.time), (0.0, 0.005))
         self.assertEqual(last.positions.tolist(), [[0.1, 0.2, 50], [0.3, 0.4, 0.5]])
         self.assertEqual(last.radii.tolist(), [0.005, 0.004])
-
-
-    def test_column_that_stands(self):
-        # By hand: 24 · 6/(5.5 · 2 · 0.5 · tan(45° + 13.283°)), with atan 0.5 = 26.565°.
-        self.assertAlmostEqual(cohesion.column_bond_by_rumpf(), 16.18, delta=0.01)
-        fallen = {2.0: -9.0, 4.0: -8.0, 8.0: -6.0, 16.0: -1.5, 32.0: -0.3, 64.0: -0.1}
-        found = cohesion.column_bond({f"wet_column_{bond:g}": rise for bond, rise in fallen.items()}, lambda rise: rise)
-        self.assertAlmostEqual(found, math.sqrt(16 * 32))
-
-    def test_strength_that_adhesion_adds(self):
-        # Of a pressure more of φ Z F/(π d²) = 0.6 · 5/π · 0.5 · 1000 Pa, which is 477.5 Pa.
-        value = lambda number: SimpleNamespace(value=number)
-        run = SimpleNamespace(sensors=lambda: {"middle": {"packing_fraction": value(0.6), "coordination": value(5.0),
-                                                          "stress_zz": value(1000.0)}})
-        loose, sticky = (SimpleNamespace(mu=mu) for mu in (0.4, 0.4 * (1 + 0.4775)))
-        states = {id(run): sticky, 0: loose}
-        found = cohesion.added_strength(run, 0, 0.5, lambda one: states[id(one) if one is run else 0])
-        self.assertAlmostEqual(found, 1.0, delta=1e-3)
 
 
 class Page(unittest.TestCase):

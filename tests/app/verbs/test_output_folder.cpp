@@ -69,7 +69,7 @@ TEST_CASE(
 namespace
 {
 
-/// A run into `out` that goes on until it is told to stop, and what comes to its folder meanwhile. Returns what they
+/// A run into `out` that goes on until a signal stops it, and what comes to its folder meanwhile. Returns what they
 /// said.
 Outcome while_it_runs(
     const Workplace& place, const std::string& commands, const std::string& settings = "--set checkpoint.interval=0.1")
