@@ -14,8 +14,18 @@ namespace talus::scene
 struct MaterialTable {
     std::string name; ///< the table's own name: [materials.NAME]
     double density = 2500.0;
+    double young_modulus = infinity;
+    double poisson = 0.3;
 
-    static void describe(auto& self, auto&& key) { key("density", self.density, above(0.0), "kg/m3", "of the solid"); }
+    static void describe(auto& self, auto&& key)
+    {
+        key("density", self.density, above(0.0), "kg/m3", "of the solid");
+        key("young_modulus", self.young_modulus, or_infinite(above(0.0)), "Pa",
+            "spheres are pressed flat as Hertz says, where that is softer than what sweeps carry; inf: rigid; only "
+            "with "
+            "matched");
+        key("poisson", self.poisson, talus::scene::between(0.0, 0.5), "", "Poisson's ratio, beside young_modulus");
+    }
 };
 
 /// What draws two materials together from when they touch.
@@ -71,7 +81,7 @@ struct ContactTable {
         key("twisting_friction", self.twisting_friction, at_least(0.0), "",
             "largest torque about the normal / (normal force x R*)");
         key("stiffness", self.stiffness, or_infinite(above(0.0)), "N/m",
-            "of the normal contact; inf: rigid; only with matched");
+            "of the normal contact, in place of what young_modulus says; inf: none; only with matched");
         key("cohesion", self.cohesion, any(), "", "what draws the two together");
     }
 };

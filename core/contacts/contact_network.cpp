@@ -10,9 +10,11 @@ void StepContacts::resize(const CandidateList& list, const ModelledPhysics& phys
 {
     spheres.resize(list.tiles.count());
     walls.resize(list.tiles.count());
-    for (TileContacts& tile : spheres) tile.clear({physics.rolling, false, physics.attraction}, true);
-    for (TileContacts& tile : walls) tile.clear({physics.rolling, physics.moving_walls, physics.attraction});
-    pistons.clear({physics.rolling, false, physics.attraction});
+    for (TileContacts& tile : spheres) tile.clear({.rolling = physics.rolling, .attraction = physics.attraction}, true);
+    TileContacts::Parts at_walls = {.rolling = physics.rolling, .attraction = physics.attraction, .walls = true};
+    pistons.clear(at_walls);
+    at_walls.moving_walls = physics.moving_walls;
+    for (TileContacts& tile : walls) tile.clear(at_walls);
     piston_arms.clear();
     places.resize(sphere_count);
     reaches.resize(sphere_count);

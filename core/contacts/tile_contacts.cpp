@@ -24,6 +24,7 @@ void TileContacts::clear(const Parts& parts, bool made_whole)
     if (parts.rolling) rolling_.resize(packs_.size());
     if (parts.moving_walls) wall_.resize(packs_.size());
     if (parts.attraction) attraction_.resize(packs_.size());
+    if (parts.walls) level_.resize(packs_.size());
 }
 
 void TileContacts::append_pack()
@@ -35,6 +36,7 @@ void TileContacts::append_pack()
         if (parts_.rolling) add_one(rolling_);
         if (parts_.moving_walls) add_one(wall_);
         if (parts_.attraction) add_one(attraction_);
+        if (parts_.walls) add_one(level_);
     } else if (!made_whole_) {
         packs_[p] = {};
         records_[p] = {};
@@ -118,7 +120,7 @@ Contact TileContacts::contact(std::size_t k) const
         .inverse_mass_sum = record.inverse_mass_sum[lane],
         .attraction = attraction(k),
         .gap = record.gap[lane],
-        .wall_level = record.wall_level[lane],
+        .wall_level = wall_level(k),
         .compression = record.compression[lane],
         .touch = touch(k),
         .slot = record.slot[lane]};

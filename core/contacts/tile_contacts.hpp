@@ -19,6 +19,7 @@ public:
     /// What there is of its contacts besides.
     struct Parts {
         bool rolling = false, moving_walls = false, attraction = false;
+        bool walls = false; ///< they are contacts with walls
     };
     /// Begins anew.
     /// @param made_whole all lanes of a pack will be made at once, so that it need not be empty before
@@ -38,6 +39,7 @@ public:
     void set_law(std::size_t k, const BesideImpact& law);
     void set_rolling(std::size_t k, const RollingRow& row);
     void set_wall(std::size_t k, const WallRow& row);
+    void set_wall_level(std::size_t k, double level) { level_[k / pack_size].level[k % pack_size] = level; }
     void set_touch(std::size_t k, TouchRecord touch)
     {
         records_[k / pack_size].touch[k % pack_size] = std::bit_cast<std::uint8_t>(touch);
@@ -87,7 +89,7 @@ public:
     }
     bool attracts(std::size_t k) const { return parts_.attraction && !attraction(k).isZero(0.0); }
     double gap(std::size_t k) const { return records_[k / pack_size].gap[k % pack_size]; }
-    double wall_level(std::size_t k) const { return records_[k / pack_size].wall_level[k % pack_size]; }
+    double wall_level(std::size_t k) const { return parts_.walls ? level_[k / pack_size].level[k % pack_size] : 0.0; }
     std::uint32_t slot(std::size_t k) const { return records_[k / pack_size].slot[k % pack_size]; }
     bool hands_nothing_on(std::size_t k) const { return records_[k / pack_size].hands_on[k % pack_size] == 0.0F; }
     Contact contact(std::size_t k) const;
@@ -112,6 +114,7 @@ private:
     std::vector<RecordPack> records_;
     std::vector<RollingPack> rolling_;       ///< empty unless the scene has rolling resistance
     std::vector<WallPack> wall_;             ///< empty unless walls move, and between spheres
+    std::vector<WallLevelPack> level_;       ///< empty between spheres
     std::vector<AttractionPack> attraction_; ///< empty unless the scene has attraction
     std::vector<std::size_t> struck_;
     Parts parts_;

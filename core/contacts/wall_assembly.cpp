@@ -25,7 +25,7 @@ void WallAssembly::add(const WallTouch& at)
     const CarriedContact& carried = carried_.contact[at.slot];
     contacts_.place(k, at.sphere, at.wall, at.slot);
     contacts_.set_touch(k, carried.touch);
-    contacts_.record(p).wall_level[lane] = at.wall_level;
+    contacts_.set_wall_level(k, at.wall_level);
     if (contacts_.has_moving_walls()) contacts_.set_wall(k, at.row);
 
     const ContactLaw& law = model_.materials.between(state_.material[at.sphere], model_.walls[at.wall].material);
@@ -41,6 +41,7 @@ void WallAssembly::add(const WallTouch& at)
     touch.inverse_mass_sum[lane] = at.inverse_mass_sum;
     touch.restitution[lane] = law.restitution;
     touch.stiffness[lane] = law.stiffness;
+    touch.modulus[lane] = step_.law.elastic ? law.modulus : 0.0;
     touch.compression[lane] = carried.compression;
     touch.struck[lane] = -static_cast<std::int64_t>(carried.touch.last() == TouchRecord::impact);
     touch.pushed[lane] = -static_cast<std::int64_t>(carried.touch.last() == TouchRecord::closing_a_gap);

@@ -45,12 +45,19 @@ template <class N> struct ContactEvent {
     N load;             ///< λ_n that the step before would have had, had it been whole [N s]
     N compression;      ///< the κ that the step before has left [m]
     Answer<N> struck;   ///< it was an impact in the step before
+    N shift = {};       ///< of that overlap its spring has no part: StepSpring [m]
 };
 
 /// Whether spheres touch already, but for rounding.
 template <class N> [[gnu::always_inline]] inline Answer<N> touches(const N& gap, const LawOfStep& step)
 {
     return gap <= N{} + touching_gap * step.min_diameter;
+}
+
+/// What of the overlap can have pressed its spring [m].
+template <class N> [[gnu::always_inline]] inline N springy_overlap(const ContactEvent<N>& event)
+{
+    return -event.gap - event.shift;
 }
 
 /// By how much a contact overlaps when it begins to yield [m].
@@ -135,7 +142,7 @@ template <class N>
     const ContactEvent<N>& event, const N& before, const N& compliance, const N& per_way, const LawOfStep& step)
 {
     const N none = {}, infinite = none + __builtin_inf();
-    const Compression<N> now(-event.gap, before, step);
+    const Compression<N> now(springy_overlap<N>(event), before, step);
     const Answer<N> is_spring = before > 0.0, keeps = is_spring | begins_spring<N>(event, step);
     const N feedback = per_way * now.kappa;
     const N parting =
@@ -151,8 +158,9 @@ template <class N>
 [[gnu::always_inline]] inline NormalLaw<N> yielding_law(
     const ContactEvent<N>& event, const N& before, const N& compliance, const N& per_way, const LawOfStep& step)
 {
-    const N most = elastic_overlap<N>(event, step), strain = -event.gap / most, strength = per_way * -event.gap;
-    const Compression<N> now(most / strain, before, step);
+    const N most = elastic_overlap<N>(event, step), strain = -event.gap / most;
+    const N strength = per_way * springy_overlap<N>(event);
+    const Compression<N> now(smaller<N>(most / strain, springy_overlap<N>(event)), before, step);
     const Answer<N> keeps = (before > 0.0) | begins_spring<N>(event, step);
     const N most_pushing = N{} + smaller(step.push_out_speed, step.elastic_speed);
     const N by_depth = step.push_out_speed * -event.gap / event.reduced_radius;

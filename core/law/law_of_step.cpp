@@ -18,7 +18,8 @@ LawOfStep law_of_step(const Model& model, const StepLength& step)
         .min_sweeps = static_cast<double>(model.solver.min_sweeps),
         .push_out_speed = model.solver.push_out_speed,
         .parts = static_cast<double>(step.parts),
-        .min_diameter = model.min_diameter};
+        .min_diameter = model.min_diameter,
+        .elastic = model.physics.elasticity};
 }
 
 } // namespace talus

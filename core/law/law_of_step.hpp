@@ -20,6 +20,7 @@ struct LawOfStep {
     double push_out_speed = 0.0;  ///< p [m/s]
     double parts = 1.0;           ///< sub-steps of the whole step
     double min_diameter = 0.0;    ///< d_min [m]
+    bool elastic = false;         ///< materials have moduli
 };
 
 LawOfStep law_of_step(const Model& model, const StepLength& step);

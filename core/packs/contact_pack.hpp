@@ -40,12 +40,12 @@ static_assert(sizeof(ContactPack) == 832);
 /// impacts, read by `hand_on` after the solve, and by all that look at contacts.
 struct alignas(64) RecordPack {
     double gap[pack_size];              ///< g at the beginning of the step [m]; < 0 is overlap
-    double wall_level[pack_size];       ///< n·x at which the gap to the wall is zero after the step [m]; at walls
     double inverse_mass_sum[pack_size]; ///< W [1/kg]
     double compliance[pack_size];       ///< Σ_n [1/kg]
     float compression[pack_size];       ///< κ: what of the overlap a load has pressed [m]; −∞: it will keep none
     float stored[pack_size];            ///< what its spring stored before the step, as the square of a length [m²]
     float spring[pack_size];            ///< Σ_n of its spring, also where it is rigid in this step [1/kg]
+    float shift[pack_size];             ///< of StepSpring [m]; not made where no material has a modulus
     float push[pack_size];              ///< what it may put in by pushing out, by its impulse [m/s]
     float restitution[pack_size];       ///< e
     float hands_on[pack_size];          ///< normal impulse at most [N s]
@@ -71,6 +71,11 @@ struct alignas(64) WallPack {
     double velocity[3][pack_size]; ///< [m/s]
     double spin[3][pack_size];     ///< [rad/s]
     double gain[pack_size];        ///< of the velocity along n since the step before [m/s]
+};
+
+/// Where walls are: found by detection, read when spheres have moved.
+struct WallLevelPack {
+    double level[pack_size]; ///< n·x at which the gap to the wall is zero after the step [m]
 };
 
 /// How those attract each other that do: made by find_attractions, read by apply_attractions and reports.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/law/coulomb.hpp"
+#include "core/law/hertz.hpp"
 #include "core/law/touch_record.hpp"
 #include "core/packs/kernels.hpp"
 #include "core/packs/numbers.hpp"
@@ -131,9 +132,9 @@ template <int width>
     return {impact ? none : warm.x, impact ? none : warm.y, impact ? none : warm.z};
 }
 
-/// What the laws of these touches depend on. @param along the normal impulse that they carry
+/// What the laws of these touches depend on, but for their springs. @param along the normal impulse that they carry
 template <int width>
-[[gnu::always_inline]] inline ContactEvent<Numbers<width>> event_of(
+[[gnu::always_inline]] inline ContactEvent<Numbers<width>> event_without_spring(
     const TouchPack& touch, int first, const Numbers<width>& along, const StepConstants& step)
 {
     using N = Numbers<width>;
@@ -141,14 +142,40 @@ template <int width>
     {
         return load<width>(row + first);
     };
-    const N w = number(touch.inverse_mass_sum), spring = spring_compliance<N>(number(touch.stiffness), w, step.law);
     const Flags<width> pushed = load_flags<width>(touch.pushed + first);
     return {number(touch.gap), number(touch.diameter), number(touch.reduced_radius), number(touch.u_n),
-        number(touch.u_n_before), number(touch.closes), w, number(touch.restitution), number(touch.stiffness),
-        pushed ? N{} : larger<N>(N{}, along) * step.law.parts,
-        taken_over<N>(number(touch.compression), along > 0.0, number(touch.gap), number(touch.u_n_before),
-            number(touch.restitution), spring, w, step.law),
+        number(touch.u_n_before), number(touch.closes), number(touch.inverse_mass_sum), number(touch.restitution),
+        number(touch.stiffness), pushed ? N{} : larger<N>(N{}, along) * step.law.parts, N{},
         load_flags<width>(touch.struck + first)};
+}
+
+/// Where materials have moduli: makes the springs of these touches, of what they have handed on.
+template <int width>
+[[gnu::noinline]] void make_springs(TouchPack& touch, int first, const Numbers<width>& along, const StepConstants& step)
+{
+    using N = Numbers<width>;
+    const auto spring = spring_of_step<N>(load<width>(touch.compression + first), along > 0.0,
+        event_without_spring<width>(touch, first, along, step), load<width>(touch.modulus + first), step.law);
+    store<width>(touch.stiffness + first, spring.stiffness);
+    store<width>(touch.compression + first, spring.compression);
+    store<width>(touch.shift + first, spring.shift);
+}
+
+/// What the laws of these touches depend on.
+template <int width>
+[[gnu::always_inline]] inline ContactEvent<Numbers<width>> event_of(
+    TouchPack& touch, int first, const Numbers<width>& along, const StepConstants& step)
+{
+    using N = Numbers<width>;
+    if (step.law.elastic) make_springs<width>(touch, first, along, step);
+    ContactEvent<N> event = event_without_spring<width>(touch, first, along, step);
+    const N w = event.inverse_mass_sum, spring = spring_compliance<N>(event.stiffness, w, step.law);
+    const N handed = load<width>(touch.compression + first);
+    const N taken = taken_over<N>(
+        handed, along > 0.0, event.gap, event.u_n_before, event.restitution, spring, w, step.law);
+    event.compression = load<width>(touch.modulus + first) > 0.0 ? handed : taken; // made already, or now
+    event.shift = load<width>(touch.shift + first);
+    return event;
 }
 
 /// What the springs of these touches hold, and what pushing out has put into them: nothing for those that keep none.
@@ -218,8 +245,8 @@ template <int width>
 
 /// What the spheres' materials and slots say of these touches.
 template <int width>
-[[gnu::always_inline]] inline void recall(
-    ContactPack& contact, TouchPack& touch, RecordPack& record, int first, const SphereNumbers& spheres)
+[[gnu::always_inline]] inline void recall(ContactPack& contact, TouchPack& touch, RecordPack& record, int first,
+    const SphereNumbers& spheres, const LawOfStep& step)
 {
     const double* laws[width];
     std::uint32_t slot[width];
@@ -234,6 +261,11 @@ template <int width>
     store<width>(contact.friction + first, law[0]);
     store<width>(touch.restitution + first, law[1]);
     store<width>(touch.stiffness + first, law[3]);
+    if (step.elastic) {
+        for (const double*& record_of_pair : laws) record_of_pair += 4;
+        gather<width>(law, laws);
+        store<width>(touch.modulus + first, law[1]);
+    }
     const auto carried = CarriedRecords<width>::gather(slot, spheres.carried);
     carried.impulse.store(touch.carried, first);
     store<width>(touch.compression + first, carried.compression);
@@ -280,6 +312,7 @@ template <int width>
     store_floats<width>(record.stored + first, load<width>(touch.stored + first));
     store_floats<width>(record.spring + first, load<width>(touch.spring + first));
     store_floats<width>(record.push + first, load<width>(touch.push + first));
+    if (step.elastic) store_floats<width>(record.shift + first, load<width>(touch.shift + first));
     store_floats<width>(record.restitution + first, load<width>(touch.restitution + first));
     store_floats<width>(record.hands_on + first,
         kind == static_cast<std::int64_t>(ContactKind::impact) ? none : none + __builtin_inf());
@@ -309,7 +342,7 @@ PackImpacts touch_spheres(
     record.in_problem = 0;
 #pragma GCC unroll 4
     for (int first = 0; first < pack_size; first += width) {
-        recall<width>(contact, touch, record, first, spheres);
+        recall<width>(contact, touch, record, first, spheres, step.law);
         const Flags<width> within_reach = detect<width>(contact, touch, first, spheres.places, step);
         make_contacts<width>(contact, record, touch, sums, impacts, first, within_reach, step);
     }
@@ -360,7 +393,8 @@ unsigned hand_on(
         const N u_n = solved_velocity<N>(load<width>(contact.target + first), load<width>(record.compliance + first),
             load<width>(contact.parting + first), along);
         const N gap = load<width>(record.gap + first);
-        const N kappa = compression_after<N>(load_floats<width>(record.compression + first), gap, u_n,
+        const N kappa = compression_after<N>(load_floats<width>(record.compression + first),
+            law.elastic ? gap + load_floats<width>(record.shift + first) : gap, u_n,
             load_floats<width>(record.restitution + first), law);
         const N stored = load_floats<width>(record.stored + first);
         const N square = handed_on<N>(kappa, stored, u_n, along, spring, w, law);
@@ -383,7 +417,8 @@ unsigned hand_on(
         narrow<width>(record.touch + first, touch);
         deep_lanes |= bits<width>(is_deep) << first;
 
-        const CarriedRecords<width> carries{impulse * share, root<N>(square), touch};
+        const N of_carried = law.elastic ? square * share_of_carried<N>(spring, w, law) : square;
+        const CarriedRecords<width> carries{impulse * share, root<N>(of_carried), touch};
         double* records[width];
         for (int lane = 0; lane < width; ++lane)
             records[lane] =

@@ -32,6 +32,7 @@ struct alignas(64) TouchPack {
     // Recalled from materials and slots (`recall`, WallAssembly::add), read by the laws.
     double restitution[pack_size];  ///< e
     double stiffness[pack_size];    ///< k [N/m]
+    double modulus[pack_size] = {}; ///< E* [Pa]; 0 where no material has one
     double carried[3][pack_size];   ///< impulse of the step before [N s]
     std::int64_t struck[pack_size]; ///< it was an impact then: −1 for yes, 0 for no
     std::int64_t pushed[pack_size]; ///< it had a gap then: −1 for yes, 0 for no
@@ -42,6 +43,7 @@ struct alignas(64) TouchPack {
     double compliance[pack_size];      ///< Σ_n [1/kg]
     double spring[pack_size];          ///< that of its spring, also where it is rigid [1/kg]
     double stored[pack_size];          ///< what that stored before pushing out puts in more [m²]
+    double shift[pack_size] = {};      ///< of StepSpring [m]; 0 where no material has a modulus
     double push[pack_size];            ///< of NormalLaw [m/s]
     double strain[pack_size];          ///< overlap, of that with which it yields, beyond that; else 0
     double impact_size[pack_size];     ///< of an impact [N s], else 0
@@ -65,7 +67,7 @@ struct SphereNumbers {
     const double* reaches;        ///< by sphere: from its centre, what it can touch in this step [m]
     const std::int32_t* material; ///< by sphere
     std::int32_t materials;       ///< how many there are
-    const double* laws;           ///< 8 for each pair of materials: μ, e, μ_r, k, …
+    const double* laws;           ///< 8 for each pair of materials: μ, e, μ_r, k, μ_t, E*, …
     const double* carried;        ///< 4 for each slot of the tile: those of CarriedContact
 };
 

@@ -17,10 +17,11 @@ struct alignas(64) ContactLaw {
     double rolling_friction = 0.0; ///< μ_r: |rolling torque| ≤ μ_r R* λ_n/h, R* = r₁r₂/(r₁+r₂), at a wall r
     double stiffness = infinity;   ///< k of the normal contact [N/m]; infinity: rigid
     double twisting_friction = 0.0; ///< μ_t: |twisting torque| ≤ μ_t R* λ_n/h
+    double modulus = infinity; ///< E*: 1/E* is the sum of (1 − ν²)/E of the two (Hertz 1882) [Pa]; infinity: rigid
 };
 static_assert(sizeof(ContactLaw) == 64 && offsetof(ContactLaw, friction) == 0 &&
-              offsetof(ContactLaw, restitution) == 8 &&
-              offsetof(ContactLaw, stiffness) == 24); // kernels read four numbers of eight
+              offsetof(ContactLaw, restitution) == 8 && offsetof(ContactLaw, stiffness) == 24 &&
+              offsetof(ContactLaw, modulus) == 40); // kernels read these
 
 /// What draws two materials together, from when they touch until their gap exceeds the range: a force that is the sum
 /// of these at touch (METHOD, attraction).

@@ -12,6 +12,7 @@ ModelledPhysics Model::needed_physics(bool spheres_turn) const
         needed.rolling = needed.rolling || law.rolling_friction > 0.0 || needed.twisting;
         needed.friction = needed.friction || law.friction > 0.0 || needed.rolling;
         needed.restitution = needed.restitution || law.restitution > 0.0;
+        needed.elasticity = needed.elasticity || law.modulus < infinity;
     }
     for (const Attraction& law : materials.attractions) needed.attraction = needed.attraction || law.range > 0.0;
     needed.spin = needed.friction && spheres_turn;

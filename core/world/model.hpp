@@ -38,6 +38,7 @@ struct ModelledPhysics {
     bool moving_walls = false; ///< as prescribed
     bool pistons = false;
     bool attraction = false;
+    bool elasticity = false; ///< moduli of materials
     bool wall_loads = false; ///< a sensor asks for them
 };
 

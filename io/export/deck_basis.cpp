@@ -53,10 +53,27 @@ Box room(const Model& model)
     return box;
 }
 
-/// Stiff enough for the spheres to lie on each other as high as they do at the start.
+/// The modulus that gives the deck's contacts, of Poisson's ratio `poisson`, this E* [Pa].
+double of_equal_spheres(double contact_modulus)
+{
+    return 2.0 * (1.0 - poisson * poisson) * contact_modulus;
+}
+
+/// The greatest E* of the scene's materials, infinite where none has a modulus [Pa].
+double greatest_modulus(const Model& model)
+{
+    double greatest = 0.0;
+    for (const ContactLaw& law : model.materials.laws)
+        if (std::isfinite(law.modulus)) greatest = std::max(greatest, law.modulus);
+    return greatest > 0.0 ? greatest : infinity;
+}
+
+/// That of the materials; where they have none, stiff enough for the spheres to lie on each other as high as they do at
+/// the start.
 double modulus(const Simulation& simulation)
 {
     const Model& model = simulation.model;
+    if (model.physics.elasticity) return of_equal_spheres(greatest_modulus(model));
     double lowest = infinity, highest = -infinity, density = 0.0;
     for (const Vec3& x : simulation.state.position) {
         lowest = std::min(lowest, x.dot(model.up()));
@@ -356,6 +373,10 @@ ExportNotes common_notes(const DeckBasis& basis)
             notes.push_back(
                 fmt::format("the stiffness {:.4g} N/m of the contact {} is left out: it is that of the modulus",
                     contact.stiffness, fmt::join(contact.between, "-")));
+    if (const double greatest = greatest_modulus(model);
+        std::isfinite(greatest) &&
+        std::ranges::any_of(model.materials.laws, [&](const ContactLaw& law) { return law.modulus < greatest; }))
+        notes.emplace_back("all contacts have the modulus of the stiffest two materials");
     for (const Wall& wall : model.walls)
         if (wall.is_piston())
             notes.push_back(fmt::format("the wall '{}' of finite mass stands still: forces do not move it", wall.name));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenarios/builder/build_report.hpp"
 
-#include "core/law/impact.hpp"
+#include "core/law/hertz.hpp"
 #include "scenarios/builder/meshes.hpp"
 
 #include <algorithm>
@@ -19,6 +19,21 @@ template <class... Numbers> std::string text(const char* format, Numbers... numb
     char buffer[300];
     std::snprintf(buffer, sizeof buffer, format, numbers...);
     return buffer;
+}
+
+/// Whether a bed is as soft as its materials. @param carried K [N/m]; @param load the mean force of its contacts [N]
+std::string forecast_hertz(double modulus, double d, double carried, double depth, double load)
+{
+    const HertzLaw<double> law(modulus, 0.25 * d, carried);
+    const double of_hertz = load > 0.0 ? load / secant_stiffness(modulus, 0.25 * d, load) : 0.0;
+    const bool is_soft = load <= 0.8 * carried * law.knee;
+    const double here = is_soft ? of_hertz : load / carried + 0.2 * law.knee;
+    return text("contacts of two spheres are Hertz's with E* = %.3g Pa, but no stiffer than %.3g N/m: ", modulus,
+               carried) +
+           text("the %.3g d whose weight this bed may bear press them by %.2g %% d on average, where Hertz has %.2g "
+                "(%s)",
+               depth, 100.0 * here / d, 100.0 * of_hertz / d,
+               is_soft ? "as soft as the materials" : "softer than the materials: sweeps carry no more");
 }
 
 } // namespace
@@ -62,6 +77,7 @@ std::string explain_model(const Model& model)
     say(p.twisting, "twisting resistance");
     say(p.restitution, "restitution");
     say(p.attraction, "cohesion");
+    say(p.elasticity, "moduli of materials");
     say(meshes, "mesh walls");
     say(p.moving_walls, "moving walls");
     say(p.pistons, "walls of finite mass");
@@ -94,15 +110,19 @@ std::string forecast_overlap(const Simulation& simulation, const Bed& bed)
         return "contacts are rigid; spheres that overlap are moved apart after each step";
     const double h = model.time_step, d = model.mean_diameter;
     const auto n = model.solver.min_sweeps;
-    double density = 0.0, stiffness = infinity;
+    double density = 0.0, stiffness = infinity, modulus = infinity;
     for (const int a : sphere_materials(simulation)) {
         density = std::max(density, model.materials.list[static_cast<std::size_t>(a)].density);
-        for (const int b : sphere_materials(simulation))
+        for (const int b : sphere_materials(simulation)) {
             stiffness = std::min(stiffness, model.materials.between(a, b).stiffness);
+            modulus = std::min(modulus, model.materials.between(a, b).modulus);
+        }
     }
     const double inverse_mass_sum = 2.0 / (density * std::numbers::pi / 6.0 * d * d * d);
-    stiffness = std::min(stiffness, 4.0 * upsilon / (sigma_per_sweep / n * inverse_mass_sum * h * h));
+    const double carried = 4.0 * upsilon / (sigma_per_sweep / n * inverse_mass_sum * h * h);
+    stiffness = std::min(stiffness, carried);
     const double of_layer = 0.45 * model.gravity.norm() * h * h / (n * d), depth = bed.borne_depth();
+    if (std::isfinite(modulus)) return forecast_hertz(modulus, d, carried, depth, carried * of_layer * depth * d);
     return text("contacts of two spheres are at most %.3g N/m stiff: a bed of a depth Z overlaps by %.2g Z on average, "
                 "twice that at its bottom; with the %.3g d whose weight this one may bear by %.2g %% d",
         stiffness, of_layer, depth, 100.0 * of_layer * depth);

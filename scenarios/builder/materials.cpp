@@ -17,6 +17,23 @@ namespace
 /// Which pairs of materials have a law.
 using GivenPairs = std::vector<std::uint8_t>;
 
+/// E* of two materials: 1/E* = (1 − ν_a²)/E_a + (1 − ν_b²)/E_b [Pa].
+double contact_modulus(const scene::MaterialTable& a, const scene::MaterialTable& b)
+{
+    const auto softness = [](const scene::MaterialTable& material) {
+        return (1.0 - material.poisson * material.poisson) / material.young_modulus;
+    };
+    return 1.0 / (softness(a) + softness(b));
+}
+
+/// Contacts are soft with `matched` alone.
+void require_matched(const scene::Scene& scene, double softness, const std::string& key, const char* what)
+{
+    if (scene.solver.stabilisation == "projected" && std::isfinite(softness))
+        throw SceneError(key, std::string("a ") + what +
+                                  " goes with stabilisation \"matched\" only; with \"projected\" contacts are rigid");
+}
+
 /// Reads the law of one [[contact]] into both of its places.
 void add_law(Materials& materials, GivenPairs& given, const scene::Scene& scene, std::size_t index)
 {
@@ -30,12 +47,12 @@ void add_law(Materials& materials, GivenPairs& given, const scene::Scene& scene,
     if (given[a * n + b])
         throw SceneError(
             key, "the contact of " + contact.between[0] + " and " + contact.between[1] + " is given twice");
-    if (scene.solver.stabilisation == "projected" && std::isfinite(contact.stiffness))
-        throw SceneError(key_path("contact", index, "stiffness"),
-            "a stiffness goes with stabilisation \"matched\" only; with \"projected\" contacts are rigid");
+    require_matched(scene, contact.stiffness, key_path("contact", index, "stiffness"), "stiffness");
     given[a * n + b] = given[b * n + a] = 1;
-    materials.laws[a * n + b] = materials.laws[b * n + a] = {
-        contact.friction, contact.restitution, contact.rolling_friction, contact.stiffness, contact.twisting_friction};
+    const double modulus = contact_modulus(scene.materials[a], scene.materials[b]);
+    materials.laws[a * n + b] =
+        materials.laws[b * n + a] = {contact.friction, contact.restitution, contact.rolling_friction, contact.stiffness,
+            contact.twisting_friction, std::isfinite(contact.stiffness) ? infinity : modulus};
 }
 
 std::set<std::string> set_of(const std::vector<std::string>& names)
@@ -136,7 +153,10 @@ void add_attractions(Model& model, const scene::Scene& scene)
 Materials build_materials(const scene::Scene& scene)
 {
     Materials materials;
-    for (const auto& material : scene.materials) materials.list.push_back({material.name, material.density});
+    for (const auto& material : scene.materials) {
+        require_matched(scene, material.young_modulus, "materials." + material.name + ".young_modulus", "modulus");
+        materials.list.push_back({material.name, material.density});
+    }
     materials.laws.resize(materials.list.size() * materials.list.size());
     GivenPairs given(materials.laws.size(), 0);
     for (std::size_t k = 0; k < scene.contact.size(); ++k) add_law(materials, given, scene, k);

@@ -32,7 +32,8 @@ bool may_be_rigid(const Simulation& simulation)
 {
     const Model& model = simulation.model;
     return simulation.pours.empty() && model.outlets.empty() && !model.physics.moving_walls &&
-           std::ranges::all_of(model.materials.laws, [](const ContactLaw& law) { return law.stiffness == infinity; });
+           std::ranges::all_of(model.materials.laws,
+               [](const ContactLaw& law) { return std::min(law.stiffness, law.modulus) == infinity; });
 }
 
 int usual_sweeps(Stabilisation stabilisation)

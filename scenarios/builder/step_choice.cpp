@@ -2,7 +2,7 @@
 #include "scenarios/builder/step_choice.hpp"
 
 #include "core/law/attraction.hpp"
-#include "core/law/thresholds.hpp"
+#include "core/law/hertz.hpp"
 #include "scenarios/builder/closing_speed.hpp"
 #include "scenarios/scene_error.hpp"
 
@@ -56,17 +56,22 @@ struct Softness {
     {
         const Model& model = simulation.model;
         const double d = model.mean_diameter;
-        double density = infinity, stiffness = 0.0;
+        double density = infinity, stiffness = 0.0, modulus = 0.0;
         const std::set<int> materials = sphere_materials(simulation);
         for (const int a : materials) {
             density = std::min(density, model.materials.list[static_cast<std::size_t>(a)].density);
-            for (const int b : materials) stiffness = std::max(stiffness, model.materials.between(a, b).stiffness);
+            for (const int b : materials) {
+                stiffness = std::max(stiffness, model.materials.between(a, b).stiffness);
+                modulus = std::max(modulus, model.materials.between(a, b).modulus);
+            }
         }
         const double inverse_mass_sum = 2.0 / (density * std::numbers::pi / 6.0 * d * d * d);
         load = overlap_of_layer * ((model.gravity.norm() + bed.wall_acceleration) * bed.borne_depth() +
                                       2.0 * bed.surcharge / (packed_share * density * d)) +
                sigma_per_sweep / (4.0 * upsilon) * attraction_of(simulation, d);
-        given = 4.0 * upsilon / (sigma_per_sweep * inverse_mass_sum * stiffness);
+        const double carried = 4.0 * upsilon / (sigma_per_sweep * inverse_mass_sum); // stiffness, times h²/N_min
+        const double of_hertz = 1.25 * secant_stiffness(modulus, 0.25 * d, carried * load);
+        given = 4.0 * upsilon / (sigma_per_sweep * inverse_mass_sum * std::min(stiffness, of_hertz));
     }
 };
 

@@ -5,6 +5,8 @@
 #include "tests/properties/room.hpp"
 #include "tests/support/contacts.hpp"
 
+#include "core/law/hertz.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -50,6 +52,7 @@ public:
         if (wish_.pistons && has_up_ && draw_.chance(0.2)) place_piston();
         draw_velocities();
         if (wish_.attraction) draw_attraction();
+        if (wish_.elasticity) draw_moduli();
         world_.model.contents = contents();
         return std::move(made_);
     }
@@ -99,7 +102,7 @@ private:
         if (wish_.friction.value_or(rough)) spheres.friction = walls.friction = 0.5;
         if (draw_.chance(0.1)) spheres.stiffness = walls.stiffness = draw_.log_uniform(1e2, 1e5);
 
-        const auto law = draw_.chance(0.5) ? Stabilisation::matched : Stabilisation::projected;
+        const auto law = draw_.chance(0.5) || wish_.elasticity ? Stabilisation::matched : Stabilisation::projected;
         const double tolerance = 1e-12;
         SolverSettings solver = law == Stabilisation::matched ? matched_settings(tolerance, max_sweeps)
                                                               : rigid_settings(tolerance, max_sweeps);
@@ -129,6 +132,24 @@ private:
         world_.attract(law);
         tell("attract each other with ", law.force / weight, " weights of the lightest, up to a gap of ",
             law.range / d_min_, " d, as bridges of ", law.volume / std::pow(d_min_, 3), " d3");
+    }
+
+    /// Such that the springs of the lightest get as stiff as sweeps can carry at any share of a diameter.
+    void draw_moduli()
+    {
+        const double least_mass = *std::ranges::min_element(mass_), knee = d_min_ * draw_.log_uniform(1e-6, 1.0);
+        const double carried =
+            carried_stiffness<double>(2.0 / least_mass, law_of_step(world_.model, part_of_step(world_.model, 1)));
+        const double modulus = 0.6 * carried / std::sqrt(0.25 * d_min_ * knee);
+        const double of_walls = draw_.one_of({1.0, 2.0, 0.01, infinity});
+        auto& laws = world_.model.materials.laws;
+        for (ContactLaw& law : laws) {
+            law.modulus = &law == laws.data() ? modulus : of_walls * modulus;
+            law.stiffness = infinity;
+        }
+        world_.model.physics.elasticity = true;
+        tell("E* ", modulus, " Pa, at walls ", of_walls, " times that: of the lightest as stiff as sweeps carry at ",
+            knee / d_min_, " d");
     }
 
     void draw_steps()

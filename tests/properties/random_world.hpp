@@ -19,6 +19,7 @@ struct Wish {
     bool pistons = true;
     bool press = false; ///< two walls close on the spheres
     bool attraction = false;
+    bool elasticity = false; ///< of materials with moduli, `matched`
 };
 
 /// A small world that a seed stands for: a few spheres, some of which touch or are about to, with or without walls, and

@@ -224,9 +224,9 @@ double most_pushed_out(const World& world, const LawOfStep& law)
 }
 
 /// What a step tells of springs and positions is what the bodies say: the columns of the books.
-Verdict books_are_right(std::uint64_t seed)
+Verdict books_are_right(std::uint64_t seed, const Wish& wish)
 {
-    RandomWorld own = draw_world(seed);
+    RandomWorld own = draw_world(seed, wish);
     World& world = own.world;
     own.warm_up_tolerance =
         1e-12; // what springs are left with stands in the impulses, and is only as right as they are
@@ -308,9 +308,17 @@ TEST_CASE("P1 with attraction no step adds energy but what that gives", "[energy
     });
 }
 
+TEST_CASE("P1 where materials have moduli no step adds energy", "[energy]")
+{
+    hold("energy_moduli", [](std::uint64_t seed) {
+        return energy_of_a_step(seed, {{.friction = false, .push_out = false, .elasticity = true}});
+    });
+}
+
 TEST_CASE("P1 the books say what springs hold, what pushing out puts in, and what positions are lifted by", "[energy]")
 {
-    hold("books", books_are_right);
+    hold("books", [](std::uint64_t seed) { return books_are_right(seed, {}); });
+    hold("books_moduli", [](std::uint64_t seed) { return books_are_right(seed, {.elasticity = true}); });
 }
 
 TEST_CASE("P1 where walls leave no room all stays finite, energy is what they put in, and it is reported",

@@ -38,7 +38,6 @@ inline void set_contact(TileContacts& contacts, std::size_t k, const Contact& co
     pack.normal_mass[lane] = 1.0 / (w + contact.compliance);
     pack.tangent_mass[lane] = 1.0 / (w * (1.0 + inverse_inertia_factor * contact.arm_scale * contact.arm_scale));
     record.gap[lane] = contact.gap;
-    record.wall_level[lane] = contact.wall_level;
     record.inverse_mass_sum[lane] = w;
     record.compliance[lane] = contact.compliance;
     record.compression[lane] = static_cast<float>(contact.compression);

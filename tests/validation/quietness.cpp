@@ -18,7 +18,7 @@ Quietness watch(Simulation& simulation, double window)
     for (std::size_t i = 0; i < state.count(); ++i) mass += state.mass(i);
     const Displacements displacements(state);
 
-    Quietness quiet;
+    Quietness quiet{.least_sweeps = static_cast<double>(model.solver.min_sweeps)};
     double squares = 0.0;
     std::int64_t steps = 0;
     const double end = state.time + window;

@@ -14,7 +14,8 @@ struct Quietness {
     double restless = 0.0;      ///< kinetic energy per grain without the liveliest 2 %, / (m g d)
     double force_rms = 0.0;     ///< rms of the support force / weight − 1
     double height = 0.0;        ///< twice the height of the centre of mass above the lowest grain's foot [d]
-    double sweeps = 0.0;        ///< mean per step
+    double sweeps = 0.0;        ///< mean per step …
+    double least_sweeps = 0.0;  ///< … and N_min
 };
 
 Quietness watch(Simulation& simulation, double window);

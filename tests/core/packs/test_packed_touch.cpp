@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/candidates/carried.hpp"
+#include "core/law/hertz.hpp"
 #include "core/packs/kernels.hpp"
 #include "tests/support/world.hpp"
 
@@ -59,6 +60,7 @@ struct Touches {
             record.slot[lane] = static_cast<std::uint32_t>(pack_size - 1 - lane);
             ContactLaw& law = laws[static_cast<std::size_t>(2 * lane * spheres + 2 * lane + 1)];
             law = {number(0, 1), lane % 3 ? number(0, 1) : 0.0, 0.0, lane % 2 ? 1e4 : infinity};
+            law.modulus = lane % 2 ? infinity : modulus_of(lane);
             if (was_struck(lane)) carried_of(lane).touch.note(TouchRecord::impact);
             if (is_new(lane)) continue;
             // In half of them it points outwards. Impacts have 10⁻³ N s: a part of these loads is none beside that.
@@ -72,6 +74,8 @@ struct Touches {
         }
     }
 
+    /// Such that springs are as stiff as sweeps can carry at some hundredths of a radius, or a tenth [Pa].
+    static double modulus_of(int lane) { return 1e3 / radius * (1 + lane); }
     static bool is_new(int lane) { return lane % 4 == 0; }
     static bool was_struck(int lane) { return lane == 4; }
     static bool is_jammed(int lane) { return lane % 4 == 3; }
@@ -155,6 +159,7 @@ TEST_CASE("all instruction sets find the same touches and make the same contacts
     Touches begin(seed);
     begin.step.law.rigid = rigid;
     begin.step.law.parts = seed % 5 ? 1.0 : 3.0;
+    begin.step.law.elastic = GENERATE(false, true);
     begin.step.is_periodic = seed % 3 == 0;
     if (begin.step.is_periodic) begin.step.cell_length[0] = 1.3;
     if (seed % 4 == 0) // the last lanes are empty
@@ -227,6 +232,7 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
     Touches all(static_cast<std::uint64_t>(GENERATE(range(1, 40))));
     all.step.law.rigid = GENERATE(false, true);
     all.step.law.parts = GENERATE(1.0, 3.0);
+    all.step.law.elastic = GENERATE(false, true);
     all.touch(fastest_kernels());
     const ContactPack& contact = all.contact;
     const LawOfStep& step = all.step.law;
@@ -249,13 +255,22 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
         const CarriedContact& own = all.carried_of(lane);
         const double carried_along = std::max(0.0, own.impulse.dot(normal));
         const double u_n = normal.dot(velocity);
-        const double spring = spring_compliance<double>(pair.stiffness, w, step);
-        const ContactEvent<double> event{gap, 2 * radius, 0.5 * radius, u_n, u_n,
+        ContactEvent<double> event{gap, 2 * radius, 0.5 * radius, u_n, u_n,
             closing_time<double>(
                 -across.dot(velocity), velocity.squaredNorm(), across.squaredNorm() - 4 * radius * radius),
-            w, pair.restitution, pair.stiffness, Touches::had_gap(lane) ? 0.0 : step.parts * carried_along,
-            taken_over<double>(own.compression, carried_along > 0.0, gap, u_n, pair.restitution, spring, w, step),
+            w, pair.restitution, pair.stiffness, Touches::had_gap(lane) ? 0.0 : step.parts * carried_along, 0.0,
             Touches::was_struck(lane)};
+        if (step.elastic) {
+            const StepSpring<double> made =
+                spring_of_step<double>(own.compression, carried_along > 0.0, event, pair.modulus, step);
+            event.stiffness = made.stiffness;
+            event.compression = made.compression;
+            event.shift = made.shift;
+        }
+        const double spring = spring_compliance<double>(event.stiffness, w, step);
+        if (!step.elastic)
+            event.compression =
+                taken_over<double>(own.compression, carried_along > 0.0, gap, u_n, pair.restitution, spring, w, step);
         const bool impact = is_impact<double>(event, step), open = gap > touching_gap * 2 * radius;
         const bool yields = -gap > elastic_overlap<double>(event, step);
         CHECK(all.is_struck(lane) == impact);
@@ -275,7 +290,7 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
 
         const auto law = normal_law<double>(event, impact, step);
         CHECK(contact.target[lane] == Approx(law.target).epsilon(1e-12).margin(1e-15));
-        CHECK(all.record.compliance[lane] == law.compliance);
+        CHECK(all.record.compliance[lane] == Approx(law.compliance).epsilon(step.elastic ? 1e-12 : 0.0));
         CHECK(contact.parting[lane] == Approx(law.parting));
         CHECK(contact.normal_mass[lane] == Approx(1.0 / (w + law.compliance)).epsilon(1e-14));
         const double s = contact.arm_scale[lane];
@@ -285,6 +300,7 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
         CHECK(all.record.compression[lane] == Approx(static_cast<float>(law.compression)));
         CHECK(all.record.spring[lane] == static_cast<float>(spring));
         CHECK(all.record.restitution[lane] == static_cast<float>(pair.restitution));
+        if (step.elastic) CHECK(all.record.shift[lane] == Approx(static_cast<float>(event.shift)));
         CHECK(all.record.hands_on[lane] == (impact ? 0.0F : INFINITY));
 
         CHECK(all.sums.overlap[lane] == std::max(0.0, -gap));
@@ -327,6 +343,7 @@ TEST_CASE("contacts hand on their impulses and what their springs keep, impacts 
     const auto seed = static_cast<std::uint64_t>(GENERATE(range(1, 40)));
     Touches all(seed);
     all.step.law.rigid = GENERATE(false, true);
+    all.step.law.elastic = GENERATE(false, true);
     all.touch(fastest_kernels());
     all.solve(seed);
     if (seed % 2) // beside an impact a contact hands on no more than its spheres bore
@@ -369,11 +386,13 @@ TEST_CASE("contacts hand on their impulses and what their springs keep, impacts 
         // A solved row tells u_n: q − Σ λ, or its parting speed. From it a spring knows what is left of it.
         const double u_n =
             std::min(contact.target[lane] - solved.record.compliance[lane] * along, contact.parting[lane]);
-        const double kappa = compression_after<double>(
-            solved.record.compression[lane], solved.record.gap[lane], u_n, solved.record.restitution[lane], step);
+        const double shift = step.elastic ? solved.record.shift[lane] : 0.0;
+        const double kappa = compression_after<double>(solved.record.compression[lane], solved.record.gap[lane] + shift,
+            u_n, solved.record.restitution[lane], step);
         const double spring = solved.record.spring[lane], w = solved.record.inverse_mass_sum[lane];
         const double square = handed_on<double>(kappa, solved.record.stored[lane], u_n, along, spring, w, step);
-        CHECK(own.compression == Approx(static_cast<float>(std::sqrt(square))));
+        const double share = step.elastic ? share_of_carried<double>(spring, w, step) : 1.0;
+        CHECK(own.compression == Approx(static_cast<float>(std::sqrt(share * square))));
         CHECK((own.compression > 0.0F) ==
               (is_loaded ? kappa > touching_gap * step.min_diameter : solved.record.stored[lane] > 0.0F));
         stored += energy_of_square<double>(square, spring, w, step);

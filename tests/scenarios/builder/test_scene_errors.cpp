@@ -29,6 +29,12 @@ const std::vector<Mistake> of_materials = {
         "contact[0].stiffness",
         "a stiffness goes with stabilisation \"matched\" only; with \"projected\" contacts are rigid"},
     {[](S& s) {
+         s.solver.stabilisation = "projected";
+         s.materials[0].young_modulus = 1e7;
+     },
+        "materials.glass.young_modulus",
+        "a modulus goes with stabilisation \"matched\" only; with \"projected\" contacts are rigid"},
+    {[](S& s) {
          s.materials.push_back({"steel", 7800.0});
          s.wall[0].material = "steel";
      },

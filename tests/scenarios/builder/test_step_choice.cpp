@@ -125,6 +125,49 @@ TEST_CASE("a softness that the scene gives is no overlap of the step", "[step_ch
     CHECK(choice_of(scene).by_overlap > 2.0 * rigid);
 }
 
+TEST_CASE("overlap that the modulus of a material makes is no overlap of the step", "[step_choice][elasticity]")
+{
+    auto scene = small_scene();
+    const double rigid = choice_of(scene).by_overlap;
+    double before = rigid;
+    for (const double modulus : {1e12, 1e7, 1e5, 1e4}) {
+        scene.materials[0].young_modulus = modulus;
+        const double now = choice_of(scene).by_overlap;
+        CHECK(now >= before);
+        before = now;
+    }
+    CHECK(before > 2.0 * rigid);
+}
+
+TEST_CASE("two materials have the modulus of Hertz's contact, unless a stiffness is given", "[step_choice][elasticity]")
+{
+    auto scene = small_scene();
+    CHECK_FALSE(build_scene(scene).simulation.model.physics.elasticity);
+    scene.materials[0].young_modulus = 1e7;
+    scene.materials[0].poisson = 0.5;
+    CHECK(build_scene(scene).simulation.model.materials.between(0, 0).modulus == Approx(0.5 * 1e7 / 0.75));
+    CHECK(build_scene(scene).simulation.model.physics.elasticity);
+
+    scene.materials.push_back({"steel", 7800.0, 2e7, 0.0});
+    scene.contact.push_back({.between = {"glass", "steel"}});
+    CHECK(
+        build_scene(scene).simulation.model.materials.between(0, 1).modulus == Approx(1.0 / (0.75 / 1e7 + 1.0 / 2e7)));
+    scene.materials[1].young_modulus = infinity;
+    CHECK(build_scene(scene).simulation.model.materials.between(1, 0).modulus == Approx(1e7 / 0.75));
+
+    scene.contact[0].stiffness = 1e4;
+    CHECK(build_scene(scene).simulation.model.materials.between(0, 0).modulus == infinity);
+}
+
+TEST_CASE("the forecast says whether a bed is as soft as its materials", "[step_choice][elasticity]")
+{
+    auto scene = small_scene();
+    scene.materials[0].young_modulus = 70e9;
+    CHECK_THAT(build_scene(scene).report.overlap, Contains("softer than the materials: sweeps carry no more"));
+    scene.materials[0].young_modulus = 1e4;
+    CHECK_THAT(build_scene(scene).report.overlap, Contains("as soft as the materials"));
+}
+
 TEST_CASE("sweeps go with the step that a scene gives", "[step_choice]")
 {
     auto scene = small_scene();
