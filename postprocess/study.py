@@ -25,28 +25,11 @@ except ImportError:
     print("talus study: NumPy is not there: apt install python3-numpy, and use /usr/bin/python3.", file=sys.stderr)
     sys.exit(2)
 
+from own_module import find_module
 from read_run import RunError
 from studies.request import REFERENCE, keys_told, read_study, resolved_study, settings_of
 from studies.statistics import MeanAndError
 from sweeps.pool import Process, Stopped, run_processes, signals_stop
-
-MISSING = ("talus study: the Python module of Talus is not there ({reason}): apt install python3-talus; where Talus is built from source, "
-           "apt install pybind11-dev python3-dev python3-numpy and build again.")
-
-
-def find_module(program):
-    """Makes the module that belongs to the program the first to be found: of its build folder, or installed beside it."""
-    folder = Path(os.path.realpath(program)).parent
-    for place in (folder.parent / "lib" / "python3" / "dist-packages", folder / "python"):
-        if list(place.glob("talus/_core.*.so")):
-            sys.path.insert(0, str(place))
-    try:
-        import talus
-        talus.Simulation  # noqa: B018  raises where the compiled half is not there
-    except ImportError as error:
-        print(MISSING.format(reason=error), file=sys.stderr)
-        sys.exit(2)
-    return talus
 
 
 def parse_arguments():
@@ -235,7 +218,7 @@ def main():
     if arguments.keys:
         print(keys_told(), end="")
         return 0
-    talus = find_module(arguments.talus)
+    talus = find_module(arguments.talus, "talus study")
     if arguments.work:
         work(json.loads(arguments.work))
         return 0

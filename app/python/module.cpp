@@ -2,6 +2,7 @@
 #include "app/findings/findings.hpp"
 #include "app/loop/error_looks.hpp"
 #include "app/python/arrays.hpp"
+#include "app/python/built.hpp"
 #include "app/python/session.hpp"
 #include "app/python/wall.hpp"
 #include "app/system/own_files.hpp"
@@ -335,6 +336,7 @@ void bind_simulation(py::module_& module)
         .def("_summary", &Session::summary)
         .def("_copy", &copy_of)
         .def("_view", &view_of)
+        .def("_built", &built_scene)
         .def("_wall", [](const std::shared_ptr<Session>& s, const std::string& name) { return WallHandle(s, name); })
         .def("_set_forces", &set_forces)
         .def("_add", &add_sphere)
@@ -368,6 +370,7 @@ PYBIND11_MODULE(_core, module)
     bind_simulation(module);
     bind_findings(module);
     bind_lock(module);
+    bind_export(module);
     module.def("check", &check, arg("scene"), arg("text"), arg("overrides"));
     module.def("keys", &key_table, arg("table"));
     module.def("scenes", [] {

@@ -2,8 +2,9 @@
 #include "app/verbs/export_files.hpp"
 
 #include "app/loop/open_scene.hpp"
+#include "app/system/own_files.hpp"
+#include "app/system/script.hpp"
 #include "app/system/terminal.hpp"
-#include "io/export/deck_export.hpp"
 #include "io/export/frame_export.hpp"
 #include "io/run/run_files.hpp"
 
@@ -20,18 +21,13 @@ std::string name_of(FrameFormat format)
     return format == FrameFormat::csv ? "csv" : format == FrameFormat::vtp ? "vtp" : "lammps-dump";
 }
 
-void say_done(const CommandLine& line, const fs::path& folder, const ExportNotes& notes, const std::string& next)
-{
-    for (const std::string& note : notes) warn("{}\n", note);
-    if (line.verbosity != Verbosity::quiet) say("{}{}\n", folder.string(), next);
-}
-
 ExitCode export_run(const CommandLine& line, FrameFormat format)
 {
     const RecordedRun run = read_run(line.scene);
     const fs::path folder = line.out.empty() ? run.folder / name_of(format) : line.out;
     const ExportNotes notes = export_frames(run, format, folder, line.force);
-    say_done(line, folder, notes, fmt::format(": {} frames", run.particles.size()));
+    for (const std::string& note : notes) warn("{}\n", note);
+    if (line.verbosity != Verbosity::quiet) say("{}: {} frames\n", folder.string(), run.particles.size());
     return ExitCode::done;
 }
 
@@ -44,16 +40,21 @@ void require_outside(const fs::path& folder, const std::vector<fs::path>& inputs
                 "{}: the deck is made from this file; choose another folder than its own with -o", input.string()));
 }
 
-ExitCode export_scene(const CommandLine& line, DeckProgram program)
+/// Opens the scene, so that what is wrong with it is said as everywhere, and becomes the script that writes decks.
+[[noreturn]] void export_scene(const CommandLine& line, const std::string& program)
 {
     const OpenedScene opened = open_scene(line);
-    const std::string name = program_name(program);
-    const fs::path folder = line.out.empty() ? fs::path("out") / fmt::format("{}-{}", opened.name, name) : line.out;
+    const fs::path folder = line.out.empty() ? fs::path("out") / fmt::format("{}-{}", opened.name, program) : line.out;
     require_outside(folder, inputs_of(opened, named_files(opened.scene)));
-    const ExportNotes notes =
-        export_deck(opened.scene, opened.simulation, {program, opened.name, TALUS_VERSION}, folder, line.force);
-    say_done(line, folder, notes, fmt::format("; to run it: cd {} && {}", folder.string(), deck_command(program)));
-    return ExitCode::done;
+    std::vector<std::string> words = {
+        "--talus", own_program().string(), "--format", program, "--out=" + folder.string()};
+    for (const std::string& text : line.overrides) words.push_back("--set=" + text);
+    if (line.seed) words.push_back(fmt::format("--set=seed={}", *line.seed));
+    if (line.until) words.push_back(fmt::format("--set=time.duration={}", *line.until));
+    if (line.force) words.push_back("--force");
+    if (line.verbosity == Verbosity::quiet) words.push_back("--quiet");
+    words.insert(words.end(), {"--", line.scene});
+    become_script("export_deck.py", words);
 }
 
 } // namespace
@@ -68,9 +69,9 @@ ExitCode export_files(const CommandLine& line)
     case ExportFormat::vtp:
         return export_run(line, FrameFormat::vtp);
     case ExportFormat::lammps:
-        return export_scene(line, DeckProgram::lammps);
+        export_scene(line, "lammps");
     case ExportFormat::liggghts:
-        return export_scene(line, DeckProgram::liggghts);
+        export_scene(line, "liggghts");
     }
     return ExitCode::done;
 }

@@ -29,8 +29,7 @@ TEST_CASE("an export keeps out of folders that are not its own", "[app][export]"
     REQUIRE(place.run(beads_in_a_box).exit_code == 0);
     std::filesystem::create_directory(place.path("thesis"));
     place.write("thesis/thesis.tex", "ten years of work");
-    const std::string arguments = GENERATE(
-        as<std::string>{}, "export out --format csv", "export scene.toml --format lammps", "export out --format vtp");
+    const std::string arguments = GENERATE(as<std::string>{}, "export out --format csv", "export out --format vtp");
     const Outcome outcome = place.talus(arguments + " -o thesis --force");
     CHECK(outcome.exit_code == 2);
     CHECK_THAT(outcome.err, Contains("thesis") && Contains("-o"));
@@ -46,19 +45,6 @@ TEST_CASE("the frames of a run go into its folder unless the user says otherwise
     CHECK_THAT(outcome.out, Contains("out/csv: 6 frames"));
     CHECK_THAT(outcome.err, Contains("contact_interval") && Contains("walls are not in CSV files"));
     CHECK_THAT(place.read("out/csv/particles_000005.csv"), Contains("time_s,position_x_m") && Contains(",glass\n"));
-}
-
-TEST_CASE("a deck says what it leaves out, on the terminal and in the deck", "[app][export]")
-{
-    const Workplace place;
-    place.write("scene.toml", loaded_beads());
-    const std::string format = GENERATE(as<std::string>{}, "lammps", "liggghts");
-    const Outcome outcome = place.talus("export scene.toml --format " + format + " --until 0.3");
-    CHECK(outcome.exit_code == 0);
-    CHECK_THAT(outcome.err, Contains("the wall 'plate' of finite mass stands still"));
-    CHECK_THAT(outcome.out, Contains("out/scene-" + format) && Contains("-in in." + format));
-    CHECK_THAT(place.read("out/scene-" + format + "/in." + format),
-        Contains("#  - the wall 'plate' of finite mass stands still") && Contains("ceil(0.3/${step})"));
 }
 
 TEST_CASE("wrong exports end with 2 and one sentence", "[app][export]")
