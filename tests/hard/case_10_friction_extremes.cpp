@@ -54,11 +54,8 @@ struct Gain {
 Gain gain_of_energy(World world, int steps)
 {
     const auto energy = [&] {
-        double forward = 0.0; // of gravity, in half a step
-        for (std::size_t i = 0; i < world.state.count(); ++i)
-            forward += 0.5 * world.model.time_step * world.state.mass(i) *
-                       world.model.gravity.dot(world.state.body(i).velocity);
-        return kinetic_energy(world.state) + potential_energy(world.state, world.model.gravity) + forward;
+        const double flight = 0.5 * world.model.time_step * world.model.gravity.dot(linear_momentum(world.state));
+        return kinetic_energy(world.state) + potential_energy(world.state, world.model.gravity) + flight;
     };
     const double start = energy();
     double last = start, bare = start, put_in = 0.0;
