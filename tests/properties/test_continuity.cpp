@@ -186,6 +186,7 @@ Verdict seen_otherwise(std::uint64_t seed, const Wish& wish)
 TEST_CASE("P3 a perturbation by rounding moves a step by little more", "[continuity]")
 {
     hold("continuity", [](std::uint64_t seed) { return perturbed_a_little(seed, {}); });
+    hold("continuity_moduli", [](std::uint64_t seed) { return perturbed_a_little(seed, {.elasticity = true}); });
 }
 
 TEST_CASE("P3 a world seen from elsewhere, or in other units, makes the same step", "[invariance]")

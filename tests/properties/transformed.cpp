@@ -106,7 +106,10 @@ private:
         Model& model = to_.model;
         model.gravity = t_.length / (t_.time * t_.time) * t_.arrow(model.gravity);
         model.time_step *= t_.time;
-        for (ContactLaw& law : model.materials.laws) law.stiffness *= t_.mass / (t_.time * t_.time);
+        for (ContactLaw& law : model.materials.laws) {
+            law.stiffness *= t_.mass / (t_.time * t_.time);
+            law.modulus *= t_.mass / (t_.length * t_.time * t_.time);
+        }
         for (double* d : {&model.mean_diameter, &model.min_diameter, &model.max_diameter}) *d *= t_.length;
         model.solver.push_out_speed *= speed();
         const bool boosted = !t_.boost.isZero(0.0);
