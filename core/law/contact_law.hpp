@@ -45,7 +45,8 @@ template <class N> struct ContactEvent {
     N load;             ///< λ_n that the step before would have had, had it been whole [N s]
     N compression;      ///< the κ that the step before has left [m]
     Answer<N> struck;   ///< it was an impact in the step before
-    N shift = {};       ///< of that overlap its spring has no part: StepSpring [m]
+    N shift = {};       ///< of the overlap its spring has no part: StepSpring [m]
+    N full_shift = {};  ///< … if all of that had pressed it [m]
 };
 
 /// Whether spheres touch already, but for rounding.
@@ -159,7 +160,7 @@ template <class N>
     const ContactEvent<N>& event, const N& before, const N& compliance, const N& per_way, const LawOfStep& step)
 {
     const N most = elastic_overlap<N>(event, step), strain = -event.gap / most;
-    const N strength = per_way * springy_overlap<N>(event);
+    const N strength = per_way * (-event.gap - event.full_shift);
     const Compression<N> now(smaller<N>(most / strain, springy_overlap<N>(event)), before, step);
     const Answer<N> keeps = (before > 0.0) | begins_spring<N>(event, step);
     const N most_pushing = N{} + smaller(step.push_out_speed, step.elastic_speed);

@@ -85,6 +85,7 @@ template <class N> struct StepSpring {
     N stiffness;   ///< k [N/m]
     N compression; ///< κ of that [m]; 0: there is none
     N shift;       ///< by how much more Hertz's is pressed: the overlap at which the force would begin [m]
+    N full_shift;  ///< the same, were it pressed by all of the overlap [m]
 };
 
 /// The spring of a step, of what the step before has handed on. It is as stiff as Hertz's where that is pressed most:
@@ -112,7 +113,9 @@ template <class N>
             borne = root<N>(law.stored(middle) / share);
     const N compression = elastic ? borne - way : taken;
     const Answer<N> is_spring = (taken > 0.0) & (compression > touching_gap * step.min_diameter);
-    return {stiffness, is_spring ? compression : none, is_spring ? (elastic ? middle - borne : none) : none};
+    const N all = root<N>(law.stored(larger<N>(none, -event.gap)) / share);
+    return {stiffness, is_spring ? compression : none, is_spring ? (elastic ? middle - borne : none) : none,
+        elastic ? -event.gap - all : none};
 }
 
 } // namespace talus

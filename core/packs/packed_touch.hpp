@@ -159,6 +159,7 @@ template <int width>
     store<width>(touch.stiffness + first, spring.stiffness);
     store<width>(touch.compression + first, spring.compression);
     store<width>(touch.shift + first, spring.shift);
+    store<width>(touch.full_shift + first, spring.full_shift);
 }
 
 /// What the laws of these touches depend on.
@@ -171,10 +172,11 @@ template <int width>
     ContactEvent<N> event = event_without_spring<width>(touch, first, along, step);
     const N w = event.inverse_mass_sum, spring = spring_compliance<N>(event.stiffness, w, step.law);
     const N handed = load<width>(touch.compression + first);
-    const N taken = taken_over<N>(
-        handed, along > 0.0, event.gap, event.u_n_before, event.restitution, spring, w, step.law);
+    const N taken =
+        taken_over<N>(handed, along > 0.0, event.gap, event.u_n_before, event.restitution, spring, w, step.law);
     event.compression = load<width>(touch.modulus + first) > 0.0 ? handed : taken; // made already, or now
     event.shift = load<width>(touch.shift + first);
+    event.full_shift = load<width>(touch.full_shift + first);
     return event;
 }
 

@@ -44,6 +44,7 @@ struct alignas(64) TouchPack {
     double spring[pack_size];          ///< that of its spring, also where it is rigid [1/kg]
     double stored[pack_size];          ///< what that stored before pushing out puts in more [m²]
     double shift[pack_size] = {};      ///< of StepSpring [m]; 0 where no material has a modulus
+    double full_shift[pack_size] = {}; ///< of StepSpring [m]; 0 where no material has a modulus
     double push[pack_size];            ///< of NormalLaw [m/s]
     double strain[pack_size];          ///< overlap, of that with which it yields, beyond that; else 0
     double impact_size[pack_size];     ///< of an impact [N s], else 0

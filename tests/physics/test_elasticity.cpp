@@ -57,12 +57,13 @@ double stiffest_modulus(double step)
 
 TEST_CASE("a sphere at rest on an elastic floor overlaps as Hertz says, whatever the step", "[elasticity]")
 {
-    const double step = GENERATE(1.0, 0.5) * automatic_step(), softness = GENERATE(0.01, 0.1, 0.5, 0.99);
+    const double step = GENERATE(1.0, 0.5) * automatic_step(), softness = GENERATE(1e-5, 0.01, 0.1, 0.5, 0.99);
     const double modulus = softness * stiffest_modulus(step), overlap = overlap_under(mass * g, modulus, r);
     World world = on_floor(modulus, step);
     world.step(20000);
     CHECK(r - world.position().z() == within(1e-6, overlap));
-    CHECK(world.report.contacts.stored_energy == within(1e-5, 0.4 * mass * g * overlap));
+    if (overlap < yield_overlap * r)
+        CHECK(world.report.contacts.stored_energy == within(1e-5, 0.4 * mass * g * overlap));
 }
 
 TEST_CASE("no elastic contact is stiffer than its sweeps can carry", "[elasticity]")

@@ -266,6 +266,7 @@ TEST_CASE("eight touches become what their laws say one by one", "[packed_touch]
             event.stiffness = made.stiffness;
             event.compression = made.compression;
             event.shift = made.shift;
+            event.full_shift = made.full_shift;
         }
         const double spring = spring_compliance<double>(event.stiffness, w, step);
         if (!step.elastic)
