@@ -22,8 +22,7 @@ struct MaterialTable {
         key("density", self.density, above(0.0), "kg/m3", "of the solid");
         key("young_modulus", self.young_modulus, or_infinite(above(0.0)), "Pa",
             "spheres are pressed flat as Hertz says, where that is softer than what sweeps carry; inf: rigid; only "
-            "with "
-            "matched");
+            "with matched");
         key("poisson", self.poisson, talus::scene::between(0.0, 0.5), "", "Poisson's ratio, beside young_modulus");
     }
 };

@@ -67,7 +67,11 @@ py::dict built_scene(Session& session, std::size_t draws)
         for (const Species& species : pour.mixture.species) mixture.append(built_species(species, draws));
         pours.append(mixture);
     }
-    return py::dict("diameters"_a = py::make_tuple(model.min_diameter, model.mean_diameter, model.max_diameter),
+    const auto materials = static_cast<py::ssize_t>(model.materials.list.size());
+    py::array_t<double> moduli({materials, materials});
+    std::ranges::transform(model.materials.laws, moduli.mutable_data(), &ContactLaw::modulus);
+    return py::dict("moduli"_a = moduli,
+        "diameters"_a = py::make_tuple(model.min_diameter, model.mean_diameter, model.max_diameter),
         "contents"_a = rows_of(model.contents), "world"_a = rows_of(model.world), "walls"_a = walls, "pours"_a = pours);
 }
 

@@ -10,6 +10,7 @@ namespace talus::python
 {
 
 /// What the building of a scene adds to its text:
+/// - `moduli`: E* of each pair of materials, infinite where they are rigid [Pa]
 /// - `diameters` least, mean, largest; boxes `contents` and `world`, as rows min and max [m]
 /// - `walls`: `corners` [m] and `triangles` as the scene has them, of grains their centres and none, and the pose
 ///   (rotation, shift) of each when it appears

@@ -25,7 +25,7 @@ inline double secant_stiffness(double modulus, double reduced_radius, double for
 template <class N> [[gnu::always_inline]] inline N carried_stiffness(const N& inverse_mass_sum, const LawOfStep& step)
 {
     const double whole = step.parts * step.h;
-    return 4.0 * upsilon / (sigma_per_sweep / step.min_sweeps * whole * whole * inverse_mass_sum);
+    return 4.0 * upsilon / (carried_compliance<N>(inverse_mass_sum, step) * whole * whole);
 }
 
 /// x^(2/5) for 0 ≤ x ≤ 1, by Newton's method for the fifth root.
@@ -54,6 +54,13 @@ template <class N> struct HertzLaw {
     /// How stiff the spring of a step is, in K. @param kappa [m], above 0
     [[gnu::always_inline]] N softness(const N& kappa) const { return smaller<N>(N{} + 1.0, root<N>(kappa / knee)); }
 
+    /// The κ that a force presses, by the length to which it presses a spring of stiffness K [m].
+    double compression_under(double length) const
+    {
+        const double at_knee = 0.8 * knee;
+        return length < at_knee ? knee * std::cbrt(std::pow(length / at_knee, 2)) : length + 0.2 * knee;
+    }
+
     /// What κ stores, as the square of the length at which a spring of stiffness K stores it [m²].
     [[gnu::always_inline]] N stored(const N& kappa) const
     {
@@ -75,7 +82,7 @@ template <class N> struct HertzLaw {
 template <class N>
 [[gnu::always_inline]] inline N share_of_carried(const N& compliance, const N& inverse_mass_sum, const LawOfStep& step)
 {
-    const N most = sigma_per_sweep / step.min_sweeps * inverse_mass_sum;
+    const N most = carried_compliance<N>(inverse_mass_sum, step);
     return feedback_share<N>(compliance, inverse_mass_sum, step) * most /
            (compliance * feedback_share<N>(most, inverse_mass_sum, step));
 }
@@ -114,7 +121,7 @@ template <class N>
     const N compression = elastic ? borne - way : taken;
     const Answer<N> is_spring = (taken > 0.0) & (compression > touching_gap * step.min_diameter);
     const N all = root<N>(law.stored(larger<N>(none, -event.gap)) / share);
-    return {stiffness, is_spring ? compression : none, is_spring ? (elastic ? middle - borne : none) : none,
+    return {stiffness, is_spring ? compression : none, (elastic & is_spring) ? middle - borne : none,
         elastic ? -event.gap - all : none};
 }
 

@@ -10,12 +10,17 @@
 namespace talus
 {
 
-/// Σ_n of a spring: that of the material's stiffness k, but no stiffer than N_min sweeps can carry.
+/// Σ_n of a spring as stiff as N_min sweeps can carry.
+template <class N> [[gnu::always_inline]] inline N carried_compliance(const N& inverse_mass_sum, const LawOfStep& step)
+{
+    return sigma_per_sweep / step.min_sweeps * inverse_mass_sum;
+}
+
+/// Σ_n of a spring: that of the material's stiffness k, but no stiffer than sweeps can carry.
 template <class N>
 [[gnu::always_inline]] inline N spring_compliance(const N& stiffness, const N& inverse_mass_sum, const LawOfStep& step)
 {
-    return larger<N>(
-        4.0 * upsilon / (stiffness * step.h * step.h), sigma_per_sweep / step.min_sweeps * inverse_mass_sum);
+    return larger<N>(4.0 * upsilon / (stiffness * step.h * step.h), carried_compliance<N>(inverse_mass_sum, step));
 }
 
 /// What a sub-step takes of the feedback on κ. The stiffness that sweeps can carry goes with 1/h², so with all of it a

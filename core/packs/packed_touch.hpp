@@ -174,7 +174,8 @@ template <int width>
     const N handed = load<width>(touch.compression + first);
     const N taken =
         taken_over<N>(handed, along > 0.0, event.gap, event.u_n_before, event.restitution, spring, w, step.law);
-    event.compression = load<width>(touch.modulus + first) > 0.0 ? handed : taken; // made already, or now
+    // Made already, or now: a choice, since GCC 12 fails on a branch here where registers hold two numbers.
+    event.compression = load<width>(touch.modulus + first) > 0.0 ? handed : taken;
     event.shift = load<width>(touch.shift + first);
     event.full_shift = load<width>(touch.full_shift + first);
     return event;

@@ -125,9 +125,8 @@ class Basis:
 
     def contact_modulus(self, contact):
         """E* of two materials, infinite where they are rigid [Pa]."""
-        both = (self.materials[name] for name in contact["between"])
-        softness = sum((1 - one["poisson"] ** 2) / one["young_modulus"] for one in both)
-        return 1 / softness if softness > 0 and math.isinf(contact["stiffness"]) else math.inf
+        one, other = (list(self.materials).index(name) for name in contact["between"])
+        return self.built["moduli"][one, other]
 
     def find_modulus(self):
         """Young's, of the materials; where they have none, stiff enough for the spheres to lie on each other as high as

@@ -25,15 +25,14 @@ template <class... Numbers> std::string text(const char* format, Numbers... numb
 std::string forecast_hertz(double modulus, double d, double carried, double depth, double load)
 {
     const HertzLaw<double> law(modulus, 0.25 * d, carried);
+    const double here = law.compression_under(load / carried);
     const double of_hertz = load > 0.0 ? load / secant_stiffness(modulus, 0.25 * d, load) : 0.0;
-    const bool is_soft = load <= 0.8 * carried * law.knee;
-    const double here = is_soft ? of_hertz : load / carried + 0.2 * law.knee;
     return text("contacts of two spheres are Hertz's with E* = %.3g Pa, but no stiffer than %.3g N/m: ", modulus,
                carried) +
            text("the %.3g d whose weight this bed may bear press them by %.2g %% d on average, where Hertz has %.2g "
                 "(%s)",
                depth, 100.0 * here / d, 100.0 * of_hertz / d,
-               is_soft ? "as soft as the materials" : "softer than the materials: sweeps carry no more");
+               here <= law.knee ? "as soft as the materials" : "softer than the materials: sweeps carry no more");
 }
 
 } // namespace
@@ -119,7 +118,7 @@ std::string forecast_overlap(const Simulation& simulation, const Bed& bed)
         }
     }
     const double inverse_mass_sum = 2.0 / (density * std::numbers::pi / 6.0 * d * d * d);
-    const double carried = 4.0 * upsilon / (sigma_per_sweep / n * inverse_mass_sum * h * h);
+    const double carried = carried_stiffness<double>(inverse_mass_sum, law_of_step(model, StepLength{h}));
     stiffness = std::min(stiffness, carried);
     const double of_layer = 0.45 * model.gravity.norm() * h * h / (n * d), depth = bed.borne_depth();
     if (std::isfinite(modulus)) return forecast_hertz(modulus, d, carried, depth, carried * of_layer * depth * d);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "energy_books.hpp"
 #include "hard_case.hpp"
 
 #include "tests/support/median.hpp"
@@ -49,26 +50,15 @@ struct Gain {
     double rises = 0.0;       ///< in single steps, all together
 };
 
-/// Energy is that of the books, METHOD (energy): the potential one at x − h v/2, and what pushing out and moves of
-/// positions put in stands in columns of its own, so that it is no rise.
 Gain gain_of_energy(World world, int steps)
 {
-    const auto energy = [&] {
-        const double flight = 0.5 * world.model.time_step * world.model.gravity.dot(linear_momentum(world.state));
-        return kinetic_energy(world.state) + potential_energy(world.state, world.model.gravity) + flight;
-    };
-    const double start = energy();
-    double last = start, bare = start, put_in = 0.0;
+    const double start = energy_of_flight(world.state, world.model);
+    EnergyBooks books(start);
     Gain gain;
     for (int k = 0; k < steps; ++k) {
         world.step();
-        const double complete = bare + world.report.contacts.stored_energy;
-        put_in += world.report.contacts.push_out_energy;
-        gain.rises += std::max(0.0, complete - last - put_in) / start;
-        gain.above_start = std::max(gain.above_start, complete / start - 1.0);
-        last = complete;
-        bare = energy();
-        put_in = world.report.outcome.push_out_energy + world.report.lifted_energy;
+        gain.rises += books.enter(world.report, energy_of_flight(world.state, world.model)) / start;
+        gain.above_start = std::max(gain.above_start, books.complete() / start - 1.0);
     }
     return gain;
 }

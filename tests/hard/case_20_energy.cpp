@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "energy_books.hpp"
 #include "hard_case.hpp"
 
 #include "core/step/diagnostics.hpp"
@@ -28,30 +29,21 @@ struct EnergyRecord {
 
 EnergyRecord watch_energy(Simulation simulation)
 {
-    const auto& gravity = simulation.model.gravity;
-    const double h = simulation.model.time_step;
     double floor = 0.0;
     for (std::size_t i = 0; i < simulation.state.count(); ++i)
-        floor += simulation.state.mass(i) * -gravity.z() * simulation.state.radius[i];
-    const auto without_contacts = [&] {
-        const double flight = 0.5 * h * gravity.dot(linear_momentum(simulation.state));
-        return kinetic_energy(simulation.state) + potential_energy(simulation.state, gravity) - floor + flight;
-    };
+        floor += simulation.state.mass(i) * -simulation.model.gravity.z() * simulation.state.radius[i];
+    const auto flight = [&] { return energy_of_flight(simulation.state, simulation.model) - floor; };
     EnergyRecord record;
-    record.start = without_contacts();
-    double last = record.start, bare = record.start, put_in = 0.0;
+    record.start = flight();
+    EnergyBooks books(record.start);
     while (!has_reached(simulation, simulation.duration)) {
         const auto report = advance(simulation);
         REQUIRE(report.bodies.incidents.empty());
         record.at_cap += !report.solve.converged;
-        const double complete = bare + report.contacts.stored_energy; // of the state before this step
-        const double rise = std::max(0.0, complete - last - put_in - report.contacts.push_out_energy);
+        const double rise = books.enter(report, flight());
         record.rises += rise;
         record.worst_rise = std::max(record.worst_rise, rise);
-        record.above_start = std::max(record.above_start, complete - record.start);
-        last = complete;
-        bare = without_contacts();
-        put_in = report.outcome.push_out_energy + report.lifted_energy;
+        record.above_start = std::max(record.above_start, books.complete() - record.start);
     }
     record.kinetic_at_end = kinetic_energy(simulation.state);
     return record;
